@@ -65,7 +65,7 @@ class LaunchTestModule(pytest.Module):
     """pytest collector for a Python file that contains the text `generate_test_description`."""
 
     def collect(self) -> Iterable[Any]:
-        """Return a `LaunchTestItem` for a launch test, or the ordinary tests of another file."""
+        """Return a `LaunchTestItem` if the file has a launch test, else the file's other tests."""
         function = getattr(self.obj, MAKES, None)
         marks = {mark.name for mark in getattr(function, "pytestmark", ())}
         if marks.isdisjoint(MARKS):
@@ -87,8 +87,8 @@ def pytest_pycollect_makemodule(module_path: Path, parent: Any) -> pytest.Module
 def pytest_pycollect_makeitem(collector: Any, name: str, obj: Any) -> Any:
     """Return the pytest items for a test with the mark `launch`; None for any other test.
 
-    A test that is a generator gets two items if its launch runs for several tests: the second item
-    runs the code after the `yield`, when the launch has ended.
+    A generator test gets two items if its launch runs for several tests. The second item runs the
+    code after the `yield`, when the launch has ended.
     """
     marks = [mark for mark in getattr(obj, "pytestmark", ()) if mark.name == "launch"]
     if not marks or not collector.funcnamefilter(name) or hasattr(obj, "launch_key"):

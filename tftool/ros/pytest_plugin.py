@@ -83,7 +83,7 @@ def _provide(root: Path) -> None:
 
 
 def pytest_unconfigure(config: pytest.Config) -> None:
-    """Undo the changes to imports: ROS 2's modules and the workspace's folders."""
+    """Remove ROS 2's modules and the workspace's folders from Python's imports."""
     if _imports:
         from tftool.ros.host import program
 

@@ -224,7 +224,7 @@ async def until(world: World, over: asyncio.Event, limit: Duration | None) -> No
 
 
 class Ending:
-    """Record of the program whose end ends a run, with an event for the end."""
+    """Record of the program that has ended, with an event that is set at its end."""
 
     def __init__(self) -> None:
         self.program: Program | None = None

@@ -56,7 +56,7 @@ def missing_name(module: str, name: str, known: Sequence[str]) -> str:
 
 
 def undeclared(parameter: str, known: Iterable[str]) -> str:
-    """Return the warning that a parameter was set at the start of a node that never declares it.
+    """Return the warning that a node was started with a parameter that it never declares.
 
     Args:
         parameter: Name of the parameter.

@@ -54,8 +54,8 @@ class Asked:
         name: Full name of the node.
         namespace: Namespace of the node.
         arguments: The program's arguments, without the part after `--ros-args`.
-        parameters: Values given for the node's parameters, by name. The methods below remove
-            each value that they return.
+        parameters: Values of the node's parameters, by name. The methods below remove a value
+            when they return it.
         options: All options after `--ros-args`.
     """
 
@@ -289,7 +289,7 @@ OUR_PACKAGES = tuple(sorted({package for package, _ in _OURS}))
 
 
 def names(workspace: Workspace) -> dict[tuple[str, str], Path | None]:
-    """Return the executables that tftool can start, as (package, executable) with a Python file.
+    """Return a mapping from each (package, executable) that tftool can start to its Python file.
 
     The file is None for tftool's built-in nodes.
     """

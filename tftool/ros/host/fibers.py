@@ -2,11 +2,11 @@
 
 Code on a fiber may block as ROS nodes do (`rclpy.spin`, `time.sleep`, `client.call`). The thread
 never touches tftool's world itself: it sends a request, the event loop executes the request,
-and the thread sleeps until the answer. For the loop, a fiber is like a coroutine.
+and the thread sleeps until the result arrives. For the loop, a fiber is like a coroutine.
 
-On the simulated clock the loop waits while a fiber runs. So only one fiber runs at any time, and
-two runs are exactly equal. On the wall clock the loop goes on, so that busy code blocks nothing
-else.
+On the simulated clock the loop waits while a fiber runs. Only one fiber therefore runs at any time,
+and two runs of the same programs are exactly equal. On the wall clock the loop does not wait, so
+that busy code blocks only its own fiber.
 """
 
 import asyncio
@@ -115,8 +115,8 @@ class Fiber:
         ended: Whether the code has ended.
         owner: Program that the fiber belongs to.
         end: Function that returns the exception to raise in waits of an interrupted fiber.
-        on_interrupt: Function called once in the fiber's thread, before that exception is first
-            raised.
+        on_interrupt: Function called once in the fiber's thread, just before the first
+            interrupted wait raises its exception.
     """
 
     def __init__(

@@ -369,9 +369,9 @@ _ENTRY = re.compile(r"(?P<shown>\w+|\*)(?:=(?P<real>\w+))?(?:<(?P<tags>[^>]*)>)?
 
 @cache
 def table() -> Mapping[str, Mapping[str, ImportedName]]:
-    """Return the names that tftool provides: from a module's ROS name to the module's names.
+    """Return a mapping from each ROS 2 module to the names that tftool provides in this module.
 
-    A package that only contains other modules has an empty entry.
+    A package that only contains other modules has no names.
     """
     found: dict[str, dict[str, ImportedName]] = {}
     for entry in re.split(r"\n(?! )", _TABLE.strip()):

@@ -275,9 +275,9 @@ def _spec(name: str) -> importlib.machinery.ModuleSpec:
 
 
 class _UserLoader(importlib.machinery.SourceFileLoader):
-    """Import loader for a user's module: `import time` in the module imports tftool's `time`.
+    """Import loader for users' modules, which get replaced builtins.
 
-    The same holds for the other modules that `shims` replaces.
+    With these builtins, `import time` imports tftool's version of `time`, for example.
     """
 
     def exec_module(self, module: ModuleType) -> None:
@@ -291,7 +291,7 @@ class _UserLoader(importlib.machinery.SourceFileLoader):
 class _TestedLoader(Loader):
     """Import loader for tests, which wraps another loader and replaces the module's builtins.
 
-    With the replaced builtins, `import time` in the module imports tftool's `time`.
+    With these builtins, `import time` imports tftool's version of `time`, for example.
     """
 
     def __init__(self, loader: Loader) -> None:

@@ -43,7 +43,7 @@ class InstalledPart:
 
 
 def installed_parts(package: Package, siblings: Iterable[str] = ()) -> Iterator[InstalledPart]:
-    """Yield the nodes, launch files and dependencies of a package with their declarations' faults.
+    """Yield a package's nodes, launch files and dependencies with the faults in their declarations.
 
     Args:
         package: Package to check.
@@ -62,7 +62,7 @@ def installed_parts(package: Package, siblings: Iterable[str] = ()) -> Iterator[
 
 
 def faults_about(package: Package, file: Path, siblings: Iterable[str] = ()) -> list[str]:
-    """Return the reasons why ROS 2 would not find one node or launch file, or a dependency of it.
+    """Return the reasons why ROS 2 would not find a node or launch file, or its dependencies.
 
     For a launch file, the faults of the nodes named in the file are included.
 

@@ -1,7 +1,7 @@
 """Locks, conditions, semaphores and events for the threads of users' programs.
 
-Their timeouts count seconds of tftool's clock. On the simulated clock the event loop goes on while
-one thread waits for another.
+Timeouts count seconds of tftool's clock. On the simulated clock, the event loop continues while one
+thread waits for another.
 """
 
 import asyncio
@@ -45,7 +45,7 @@ class StateMonitor:
                     wake()
 
     def wait(self, take: Callable[[], bool], timeout: float | None = None) -> bool:
-        """Block until `take` returns True; call it at once and after every change of the state.
+        """Call `take` at once and after every change of the state, until `take` returns True.
 
         Args:
             take: Function that checks the state and may change it; called while the mutex is held.
@@ -109,7 +109,7 @@ class StateMonitor:
                     self._wakers.remove(wake)
 
     def _block(self, take: Callable[[], bool], timeout: float | None) -> bool:
-        """Wait until `take` returns True, at most `timeout` real seconds; return whether it did.
+        """Wait until `take` returns True; return False after `timeout` real seconds.
 
         Only threads that belong to no user's program wait in real time.
         """

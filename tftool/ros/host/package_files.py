@@ -64,11 +64,11 @@ class Package:
         return None
 
     def place_of_script(self, name: str) -> Path:
-        """Return the path of a console script for an install prefix equal to the source folder."""
+        """Return the path that a console script would get if installed into the source folder."""
         return self.path / "lib" / self.name / name
 
     def executable_at(self, path: Path) -> str | None:
-        """Return the name of the executable in the file `path`; None if it is no executable."""
+        """Return the name of the executable in the file `path`; None for any other file."""
         if path.name in self.scripts and path == self.place_of_script(path.name):
             return path.name
         is_node = path == self.script_file(path.name) and b"rclpy" in path.read_bytes()

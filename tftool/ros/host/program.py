@@ -207,7 +207,7 @@ class Program(Node):
         self.event_loops.clear()
 
     def start_fiber(self, fiber: Fiber) -> "asyncio.Task[None]":
-        """Start a fiber as a further thread of this program; call it in the event loop's thread."""
+        """Start a fiber as a further thread of the program; callable in the event loop's thread."""
         self._own(fiber)
         task = asyncio.get_running_loop().create_task(fiber.drive(), name=fiber.name)
         self._others.add(task)
@@ -398,7 +398,7 @@ async def _as_coroutine(request: Callable[[], Any]) -> Any:
 
 
 def let_outsiders_join(found: "Callable[[], Program | None] | None") -> None:
-    """Set a function that returns the program for threads that are no fibers.
+    """Set the function that returns the program of a thread without a fiber.
 
     Args:
         found: The function, which may return None for no program; None removes an earlier function.

@@ -75,9 +75,9 @@ def interfaces(package: str | None = None, kinds: Sequence[str] = tuple(KINDS)) 
 
 
 def prototype(name: str) -> Any:
-    """Return a new message with default values in all fields.
+    """Return a new message with default values in all fields, for the interface `name`.
 
-    The message is a request for the name of a service, and a goal for the name of an action.
+    For a service, the message is a request; for an action, a goal.
 
     Raises:
         UsageError: If there is no such interface; the text names a similar one.

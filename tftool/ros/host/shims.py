@@ -73,7 +73,7 @@ def _elapsed_ns() -> int:
 
 
 def _print(*values: object, **options: Any) -> None:
-    """Print as Python does, and call the program's `on_print`, if it is set, with the text."""
+    """Print as Python does, and pass the text to the program's `on_print` function, if set."""
     _REAL_PRINT(*values, **options)
     owner = running_program()
     if owner is None or owner.on_print is None:

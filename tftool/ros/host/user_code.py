@@ -1,4 +1,4 @@
-"""Loading of users' Python files, and conversion of these files to functions that run them."""
+"""Loading of users' Python files, and functions that run these files as programs."""
 
 import inspect
 from collections.abc import Callable

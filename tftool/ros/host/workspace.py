@@ -250,7 +250,7 @@ def use(searched: Workspace) -> None:
 
 
 def current() -> Workspace:
-    """Return the workspace set by `use`; without one, the workspace around the current folder."""
+    """Return the workspace set by `use`; by default the workspace around the current folder."""
     if not _current:
         _current.append(Workspace(Path.cwd()))
     return _current[0]

@@ -206,10 +206,10 @@ class Push(Action):
 
 
 class Pop(Action):
-    """Action that closes the scope opened last."""
+    """Action that closes the innermost scope."""
 
     def execute(self, context: LaunchContext) -> Any:
-        """Close the scope opened last, and restore the arguments from before it."""
+        """Close the innermost scope; restore the arguments and variables from before the scope."""
         context.pop()
 
 

@@ -175,9 +175,10 @@ class CommandRunner:
         Args:
             command: Command to run.
             label: Name of the command for warnings.
-            on_start: Function called with the process, which may then be interrupted; not called
-                for a command that ends while simulated time waits, so that all its lines arrive.
-            on_line: Function called with each output line, and whether it is from standard output.
+            on_start: Function called with the process, so that the process can be interrupted; not
+                called for a short command that ends while simulated time is stopped.
+            on_line: Function called with each line of output, and whether the line comes from
+                standard output.
 
         Raises:
             UsageError: If the command cannot be started.

@@ -165,7 +165,7 @@ class ComposableNodeContainer(Node):
         )
 
     def _missing(self, context: LaunchContext) -> str:
-        """Return the reason why tftool cannot start the container; "" if there is none."""
+        """Return the reason why tftool cannot start the container; "" if it can."""
         package = None if self.package is None else perform(context, self.package)
         try:
             if package is None:

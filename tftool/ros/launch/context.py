@@ -109,7 +109,7 @@ class LaunchContext:
         return self.launch
 
     def number_of(self, name: str) -> int:
-        """Return the number of a name, for AnonName; new names are numbered from 1."""
+        """Return the number of a name in this launch: 1 for the first name, 2 for the next, …"""
         return self._numbers.setdefault(name, len(self._numbers) + 1)
 
     def perform_substitution(self, substitution: Any) -> str:

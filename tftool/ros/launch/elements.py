@@ -69,8 +69,8 @@ class Element:
         """Raise an error if the parser has not read an attribute or child element of this element.
 
         Raises:
-            InputError: If there is one; the text names the most similar name that the parser has
-                read.
+            InputError: If a part of the element is unread; the text names the most similar part
+                that the parser has read.
         """
         for name in self.values:
             if name not in self.asked:

@@ -256,7 +256,7 @@ class Launch(Node):
         self._wrote(label, line, to_stdout=is_stdout)
 
     def _printed(self, label: str, text: str, is_stdout: bool) -> None:
-        """Handle the lines that a program has printed; called in the program's thread."""
+        """Handle the lines that a program has printed; call this in the program's thread."""
         for line in text.splitlines():
             program.current().ask(partial(self._wrote, label, line, to_stdout=is_stdout))
 
@@ -342,7 +342,7 @@ class Launch(Node):
     def ask(
         self, service: str, requests: Iterable[Any], done: Callable[[Any, Any], object]
     ) -> None:
-        """Send requests to a service, each after the response to the request before.
+        """Send requests to a service, each after the response to the previous request.
 
         Args:
             service: Name of the service.

@@ -260,7 +260,7 @@ class OnProcessIO(TargetHandler):
 
 
 class OnExecutionComplete(TargetHandler):
-    """Handler of the event that an action has ended, and for a process, will not be restarted."""
+    """Handler of the event that an action is complete (for a process: after its last restart)."""
 
     event = ExecutionComplete
 

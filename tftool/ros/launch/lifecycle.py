@@ -158,7 +158,7 @@ class LifecycleTransition(Action):
             raise ValueError("a LifecycleTransition needs lifecycle_node_names and transitions")
 
     def execute(self, context: LaunchContext) -> Any:
-        """Return actions that request the transitions; each waits for the one before to end."""
+        """Return actions that request each transition after the previous transition has ended."""
         numbers = [int(perform(context, one)) for one in self.transition_ids]
         for label in self.transition_labels:
             text = perform(context, label)

@@ -25,8 +25,7 @@ def _holds(context: LaunchContext, value: Any) -> bool:
 class EqualsSubstitution(Substitution):
     """Substitution with the text 'true' if two texts are equal, else 'false'.
 
-    Texts that are numbers are equal if the numbers are. The text '1' equals 'true', and '0' equals
-    'false'.
+    Numbers are compared by value. The text '1' equals 'true', and '0' equals 'false'.
     """
 
     def __init__(self, left: Any, right: Any) -> None:
@@ -61,7 +60,7 @@ class _Several(Substitution):
         self.args = args
 
     def perform(self, context: LaunchContext) -> str:
-        """Return 'true' or 'false' for the combined values; as in ROS 2, evaluate all of them."""
+        """Return 'true' or 'false' for the combined values; evaluate all values, as in ROS 2."""
         return str(self.judge([_holds(context, value) for value in self.args])).lower()
 
 
@@ -96,7 +95,7 @@ class OrSubstitution(_Both):
 
 
 class NotSubstitution(Substitution):
-    """Substitution with the text 'true' if another text is false."""
+    """Substitution with the text 'true' if a text is false, else 'false'."""
 
     def __init__(self, value: Any) -> None:
         self.value = value

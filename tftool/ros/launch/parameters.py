@@ -115,7 +115,7 @@ class ParameterFile:
     def evaluate(self, context: LaunchContext) -> Path:
         """Return the path of the file.
 
-        With `allow_substs`, this is the path of a new copy in which every `$(…)` is replaced.
+        With `allow_substs`, return the path of a new copy in which every `$(…)` is replaced.
 
         Raises:
             InputError: If a `$(…)` is unknown.

@@ -33,7 +33,7 @@ def make_namespace_absolute(ns: str | None) -> str | None:
 
 
 def prefix_namespace(base_ns: str | None, ns: str | None) -> str | None:
-    """Join the namespaces `base_ns` and `ns`; return `ns` alone if it is absolute.
+    """Join the namespaces `base_ns` and `ns`; return `ns` alone if `ns` is absolute.
 
     If one namespace is None, return the other namespace.
     """
@@ -149,7 +149,7 @@ class PushRosNamespace(Action):
         self.namespace = namespace
 
     def execute(self, context: LaunchContext) -> Any:
-        """Set the scope's namespace; append a relative namespace to the one that is set."""
+        """Set the scope's namespace; join a relative namespace to the present namespace."""
         namespace = namespace_in(context, self.namespace)
         if namespace is not None:
             context.launch_configurations[_NAMESPACE] = namespace

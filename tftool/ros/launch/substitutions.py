@@ -30,11 +30,11 @@ class Substitution:
     """Base class of substitutions: texts that are computed only while the launch runs."""
 
     def perform(self, context: LaunchContext) -> str:
-        """Compute the text."""
+        """Return the text of the substitution."""
         raise NotImplementedError
 
     def describe(self) -> str:
-        """Return a description of the substitution, before it is evaluated."""
+        """Return a description of the substitution, without evaluating it."""
         return f"{type(self).__name__}()"
 
     def __truediv__(self, other: Any) -> "PathJoinSubstitution":
@@ -46,7 +46,7 @@ SomeSubstitutionsType = Any
 
 
 def perform(context: LaunchContext, value: Any) -> str:
-    """Return the text of a substitution, or the joined texts of a list of them."""
+    """Return the text of a substitution, or the joined texts of a list of substitutions."""
     if value is None:
         return ""
     if isinstance(value, Substitution):
@@ -61,7 +61,7 @@ def perform(context: LaunchContext, value: Any) -> str:
 
 
 def describe(value: Any) -> str:
-    """Return a description of one or several substitutions, before they are evaluated."""
+    """Return a description of a substitution, or of a list of substitutions, without evaluation."""
     if isinstance(value, Substitution):
         return value.describe()
     if isinstance(value, Sequence) and value and not isinstance(value, str):
@@ -360,9 +360,10 @@ class ExecutableInPackage(Substitution):
         self.executable, self.package = executable, package
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the path of the executable's source file, or a path below the package's folder.
+        """Return the path of the executable's source file.
 
-        The second path is for a console script, which has no file of its own before installation.
+        A console script has no file before installation; for such a script, return the path that an
+        installation into the package's source folder would give.
         """
         name = perform(context, self.executable)
         package = context.workspace.package(perform(context, self.package))

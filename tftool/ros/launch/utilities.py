@@ -13,7 +13,7 @@ def perform_substitutions(context: LaunchContext, subs: Iterable[Substitution]) 
 
 
 def normalize_to_list_of_substitutions(subs: Any) -> list[Substitution]:
-    """Convert a text, a substitution, or a list of both to a list of substitutions.
+    """Convert a text, a substitution, or a list of texts and substitutions to substitutions.
 
     Raises:
         TypeError: If an item is neither a text nor a substitution.

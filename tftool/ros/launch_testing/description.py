@@ -100,7 +100,7 @@ class PyTest(Test):
 
 
 class KeepAliveProc(ExecuteProcess):
-    """Action that starts a process without end, so that the launch runs until it is shut down."""
+    """Action that starts a process without end, which keeps the launch running until shutdown."""
 
     def __init__(self) -> None:
         super().__init__(cmd=[sys.executable, "-c", "import signal; signal.pause()"])
@@ -130,13 +130,13 @@ class StdoutReadyListener(OnProcessIO):
 
 
 class ReadyAggregator:
-    """Counter that calls the function `ready_fn` at the call number `num_to_aggregate`."""
+    """Counter that calls a function after `num_to_aggregate` calls of its method `ready_fn`."""
 
     def __init__(self, ready_fn: Callable[[], object], num_to_aggregate: int) -> None:
         self._ready, self._left = ready_fn, num_to_aggregate
 
     def ready_fn(self) -> None:
-        """Count one call; call the constructor's `ready_fn` at call number `num_to_aggregate`."""
+        """Count this call; after the last expected call, call the function given to `__init__`."""
         self._left -= 1
         if self._left == 0:
             self._ready()

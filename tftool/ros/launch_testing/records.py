@@ -24,7 +24,7 @@ NO_CMD_ARGS = object()
 
 
 class NoMatchingProcessException(Exception):
-    """Error for a process of which a record has no event."""
+    """Error for a process that has no event in a record."""
 
 
 class _Record:
@@ -50,7 +50,7 @@ class _Record:
         return list(dict.fromkeys(event.process_name for event in self))
 
     def holds_within(self, check: Callable[[], bool], timeout: float | None) -> bool:
-        """Wait until `check` returns True, at most `timeout` seconds; return whether it did."""
+        """Wait until `check` returns True; return False after `timeout` seconds."""
 
         def holds() -> bool:
             try:

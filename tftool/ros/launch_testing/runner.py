@@ -74,7 +74,7 @@ def _cases(tests: Any) -> Iterator[Any]:
 
 
 def _given(function: Callable[..., Any], values: Mapping[str, Any]) -> Callable[..., Any]:
-    """Return the function with those of `values` bound that are names of its arguments."""
+    """Return the function with bound arguments: those of `values` that the function accepts."""
     wanted = inspect.signature(function).parameters
     return functools.partial(function, **{k: v for k, v in values.items() if k in wanted})
 

@@ -84,7 +84,7 @@ class WaitForTopics:
         self._state.change(lambda: kept.append(message))
 
     def shutdown(self) -> None:
-        """Stop spinning the helper's node, and destroy it."""
+        """Stop spinning the helper's node, and destroy the node."""
         self._pump.stop()
         self._node.destroy_node()
         self._context.try_shutdown()
@@ -164,5 +164,5 @@ class DataRepublisher:
         return len(self._republished)
 
     def get_republished(self) -> list[Any]:
-        """Return the received messages that were published, before the change."""
+        """Return the received messages, without the changes, whose changed copies were sent."""
         return self._republished

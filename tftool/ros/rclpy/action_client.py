@@ -67,7 +67,7 @@ class ClientGoalHandle:
         return self._result
 
     def get_result(self) -> Any:
-        """Block until the goal's result arrives; return what `get_result_async` promises."""
+        """Block until the goal ends; return an object with the attributes `status` and `result`."""
         return wait_for(self._client.seat, self.get_result_async())
 
     def cancel_goal_async(self) -> Future:

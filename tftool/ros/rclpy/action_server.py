@@ -94,7 +94,7 @@ class ServerGoalHandle:
         self._status = "canceled"
 
     def execute(self, execute_callback: Any = None) -> None:
-        """Start to execute the goal.
+        """Schedule the execution of the goal.
 
         Args:
             execute_callback: Function to call with this handle; None for the server's callback.
@@ -272,7 +272,7 @@ class ActionServer(WorkQueue):
             self.seat.program.ask(lambda: goal.decide_cancel(accepted))
 
     def execute(self, handle: ServerGoalHandle, callback: Any = None) -> None:
-        """Let the node's executor execute a goal.
+        """Schedule the execution of a goal on the node's executor.
 
         Args:
             handle: Handle of the goal.

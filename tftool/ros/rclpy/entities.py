@@ -216,14 +216,14 @@ class CallbackGroup:
         raise NotImplementedError
 
     def beginning_execution(self, entity: Any) -> bool:
-        """Count one more running callback of this group; return False if none may start now."""
+        """Increment the number of running callbacks; return False if no callback may start now."""
         if not self.can_execute(entity):
             return False
         self.busy += 1
         return True
 
     def ending_execution(self, entity: Any) -> None:
-        """Count one running callback of this group less."""
+        """Decrement the number of running callbacks of this group."""
         self.busy -= 1
 
 
@@ -356,7 +356,7 @@ class Timer(NodeEntity):
 
 
 class RateTimer(Timer):
-    """Timer of a `Rate`; as in ROS 2, `spin_once` returns when such a timer fires."""
+    """Timer of a `Rate`; as in ROS 2, each call of this timer makes `spin_once` return."""
 
     only_ends_spin_once = True
     on_end: Callable[[], object] = staticmethod(lambda: None)

@@ -174,7 +174,7 @@ class Executor:
     def spin_once_until_future_complete(
         self, future: Future, timeout_sec: float | None = None
     ) -> None:
-        """Wait for one callback and execute it; return earlier if the future is done."""
+        """Wait for one callback and execute it; if the future is done first, only return."""
         if not (future.done() or future.cancelled()):
             future.watch(lambda _: self._wake_from_anywhere())
             self._step(self._deadline(timeout_sec), future)
@@ -363,8 +363,8 @@ class SingleThreadedExecutor(Executor):
 class MultiThreadedExecutor(Executor):
     """Executor that runs callbacks at the same time if their callback groups permit it.
 
-    Worker threads run the callbacks, never the thread that spins. As in ROS 2, a long callback
-    therefore does not delay the return of `spin_until_future_complete` once the future is done.
+    Worker threads run the callbacks, never the thread that spins. A long callback therefore does
+    not delay the return of `spin_until_future_complete` once the future is done, as in ROS 2.
     """
 
     def __init__(self, num_threads: int | None = None, *, context: Context | None = None) -> None:
@@ -436,7 +436,10 @@ def executor_of(owner: "program.Program") -> Executor:
 
 @contextmanager
 def serving(executor: Any, node: Any) -> Iterator[None]:
-    """Add a node to an executor during the `with` block; a node added before stays afterwards."""
+    """Add a node to an executor during the `with` block.
+
+    A node that was already added before the block remains in the executor.
+    """
     added = executor.add_node(node)
     try:
         yield

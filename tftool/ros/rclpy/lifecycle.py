@@ -212,10 +212,10 @@ def _telling(callback: str) -> Any:
 
 
 def _triggering(transition: str, change_of_state: str) -> Any:
-    """Return the method `trigger_TRANSITION` of lifecycle nodes, which runs the transition.
+    """Return a method of lifecycle nodes such as `trigger_activate`, which runs a transition.
 
     Args:
-        transition: Name of the transition.
+        transition: Name of the transition, such as "activate".
         change_of_state: Text for the method's docstring, such as "inactive to active".
     """
 

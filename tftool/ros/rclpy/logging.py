@@ -34,7 +34,7 @@ class SkipFirst:
 
 
 class RcutilsLogger:
-    """Named logger with a lowest severity, below which messages are dropped."""
+    """Named logger, which drops messages below a lowest severity."""
 
     def __init__(self, name: str = "") -> None:
         self.name = name

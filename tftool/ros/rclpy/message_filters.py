@@ -56,12 +56,14 @@ class Subscriber(SimpleFilter):
 
 
 def _stamp(msg: Any, allow_headerless: bool, who: str) -> Time | None:
-    """Return the stamp of a message; for a message without a header, the time now or None.
+    """Return the stamp of a message.
+
+    A message without a header gets the present time, or None after a warning.
 
     Args:
         msg: The message.
         allow_headerless: Whether a message without a header gets the present time.
-        who: Name of the logger for the warning about a message that gets no time.
+        who: Name of the logger for the warning.
     """
     if hasattr(msg, "header") and hasattr(msg.header, "stamp"):
         stamp = msg.header.stamp
@@ -106,11 +108,11 @@ class Cache(SimpleFilter):
         return self._where(lambda stamp: from_stamp <= stamp <= to_stamp)
 
     def getElemAfterTime(self, stamp: Time) -> Any:  # noqa: N802
-        """Return the oldest stored message with a stamp at or after `stamp`; None without one."""
+        """Return the oldest stored message with a stamp at or after `stamp`, or None."""
         return next(iter(self._where(lambda kept: kept >= stamp)), None)
 
     def getElemBeforeTime(self, stamp: Time) -> Any:  # noqa: N802
-        """Return the newest stored message with a stamp at or before `stamp`; None without one."""
+        """Return the newest stored message with a stamp at or before `stamp`, or None."""
         return next(reversed(self._where(lambda kept: kept <= stamp)), None)
 
     def _where(self, fits: Callable[[Time], bool]) -> list[Any]:
@@ -186,7 +188,7 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
         self.allow_headerless = allow_headerless
 
     def add(self, msg: Any, my_queue: dict[int, Any], my_queue_index: int) -> None:
-        """Store a message; call the registered callbacks if all other filters have a near message.
+        """Store a message; call the registered callbacks if the other filters have near messages.
 
         For the arguments see `TimeSynchronizer.add`.
         """

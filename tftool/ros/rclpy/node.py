@@ -145,7 +145,7 @@ class Node(NodeGraph, NodeParameters):
 
     @property
     def default_callback_group(self) -> CallbackGroup:
-        """Callback group of timers, subscriptions and the like that were created without one."""
+        """Callback group of timers, subscriptions and the like that were given no group."""
         return self._default_callback_group
 
     @property
@@ -331,7 +331,7 @@ class Node(NodeGraph, NodeParameters):
     ) -> None:
         """Create services that every ROS 2 node has, such as the services for its parameters.
 
-        A service that another node of the same name already offers is not created.
+        If another node of the same name already offers a service, do not create this service.
 
         Args:
             services: Tuples (name below the node's name, type, handler).

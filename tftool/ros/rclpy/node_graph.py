@@ -200,7 +200,7 @@ class NodeGraph:
         return self.__look(lambda: _listed(chain(self.__served(), _held(None, clients, CLIENT))))
 
     def __served(self, by: str | None = None) -> Iterator[tuple[str, str]]:
-        """Yield (name, type) of each service that the node `by` offers; None for all nodes."""
+        """Yield (name, type) of the services that the node `by` offers; None for all services."""
         for name, offer in self._tftool.world.services().items():
             if by in (None, offer.node):
                 yield name, interface_name(offer.kind)

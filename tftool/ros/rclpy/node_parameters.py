@@ -195,7 +195,7 @@ class NodeParameters:
         return alternative_value or found or Parameter(name, Type.NOT_SET, None)
 
     def get_parameters_by_prefix(self, prefix: str) -> dict[str, Parameter]:
-        """Return the parameters whose names begin with `prefix` and a dot, by shortened name."""
+        """Return the parameters below a prefix, by their names without the prefix and its dot."""
         start = f"{prefix}." if prefix else ""
         return {
             name.removeprefix(start): parameter
@@ -460,7 +460,7 @@ def set_result(successful: bool, reason: str) -> Any:
 
 
 def _checked_descriptor(descriptor: Any) -> Any:
-    """Return the descriptor; for None, an empty ParameterDescriptor message.
+    """Return `descriptor` unchanged; for None, an empty ParameterDescriptor message.
 
     Raises:
         TypeError: If the descriptor has another type.

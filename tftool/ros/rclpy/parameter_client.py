@@ -190,7 +190,7 @@ class ParameterEventHandler:
 
     @staticmethod
     def get_parameter_from_event(event: Any, parameter_name: str, node_name: str) -> Any:
-        """Return the message about one parameter of one node in an event; None if not included."""
+        """Return the message about one parameter of one node in an event, or None."""
         if event.node != node_name:
             return None
         told = ParameterEventHandler.get_parameters_from_event(event)

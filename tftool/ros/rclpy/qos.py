@@ -55,7 +55,7 @@ class ReliabilityPolicy(_Policy):
 
 
 class DurabilityPolicy(_Policy):
-    """Rule for late subscribers: send them earlier messages, or only new messages."""
+    """Rule for late subscribers: send earlier messages too, or only new messages."""
 
     SYSTEM_DEFAULT = 0
     RMW_QOS_POLICY_DURABILITY_SYSTEM_DEFAULT = 0

@@ -61,7 +61,7 @@ class QoSLivelinessChangedInfo(NamedTuple):
 
 
 class QoSIncompatibleInfo(NamedTuple):
-    """Number of incompatible endpoints, its change, and the policy that excludes the last one."""
+    """Number of incompatible endpoints, its change, and the policy that excludes the newest."""
 
     total_count: int = 0
     total_count_change: int = 0
@@ -234,7 +234,7 @@ class EndpointWatch(WorkQueue):
         self._deadline.end()
 
     def lease_expired(self) -> None:
-        """Report that this publisher's lease, the time it may be silent, has expired."""
+        """Report that this publisher has given no sign of life for longer than its lease."""
         self._lost = QoSCountInfo(self._lost.total_count + 1, 1)
         self._tell(self._wanted.liveliness, self._lost)
 

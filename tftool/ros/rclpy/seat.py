@@ -147,7 +147,7 @@ class NodeSeat:
         return entity
 
     def forget(self, entity: Any) -> bool:
-        """Close an entity and remove it from the node; return False if it was not in the node."""
+        """Close an entity and remove it from the node; return False for another node's entity."""
 
         def drop() -> bool:
             if entity not in self.entities:
@@ -167,7 +167,7 @@ class NodeSeat:
                 self.program.nodes.remove(self)
 
     def unserved(self) -> int:
-        """Return the number of the node's callbacks if no executor ever had the node, else 0."""
+        """Return the number of the node's callbacks; 0 if the node was ever in an executor."""
         return 0 if self.was_served else sum(one.is_a_callback for one in self.entities)
 
     # On the loop's thread

@@ -288,7 +288,7 @@ class ROSClock(Clock):
         return super().ros_time_is_active if self._is_overridden is None else self._is_overridden
 
     def now(self) -> Time:
-        """Return the present time; with an active `TimeSource`, the time that it set last."""
+        """Return the present time, or the last time set by an active `TimeSource`."""
         return self._override if self._is_overridden else super().now()
 
     def _set_ros_time_is_active(self, enabled: bool) -> None:

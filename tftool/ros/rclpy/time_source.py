@@ -1,7 +1,8 @@
 """Class TimeSource of rclpy.time_source, which sets clocks to the times on the topic `/clock`.
 
-A node's own clock needs no `TimeSource`, because it shows tftool's time. Programs rarely create a
-`TimeSource`; tests do. The parameter `use_sim_time` of the attached node switches it on.
+A node's own clock needs no `TimeSource`, because the clock shows tftool's time. Programs rarely
+create a `TimeSource`, but tests do. The parameter `use_sim_time` of the attached node switches the
+`TimeSource` on.
 """
 
 from typing import Any

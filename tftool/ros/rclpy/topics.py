@@ -97,7 +97,7 @@ class TopicEnd(NodeEntity):
 
 
 class Publisher(TopicEnd):
-    """Publisher, which sends messages on a topic."""
+    """Publisher of messages on a topic."""
 
     def __init__(
         self, seat: NodeSeat, kind: type[Message], topic: str, full: str, profile: QoSProfile
@@ -190,7 +190,7 @@ class MessageInfo(TypedDict):
 
 
 class Subscription(TopicEnd):
-    """Subscription, which receives messages on a topic."""
+    """Subscription to the messages on a topic."""
 
     is_a_callback = True
 

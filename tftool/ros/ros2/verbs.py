@@ -40,7 +40,8 @@ Verb = Callable[[Node, argparse.Namespace, Print], int | None]
 def verb_of(asked: argparse.Namespace) -> Verb:
     """Return the function of a command, such as `_topic_echo` for `ros2 topic echo`.
 
-    A command of several nouns has one function for all nouns: `_type` for `ros2 topic type`.
+    A verb that exists for several nouns may have one function for all of them: `_type` is the
+    function of `ros2 topic type` and `ros2 service type`.
     """
     known = {"_list": list_names, **vars(topic_verbs), **globals()}
     found: Verb = known.get(f"_{asked.noun}_{asked.verb}") or known[f"_{asked.verb}"]

@@ -132,7 +132,7 @@ class _Arrivals(NodeEntity):
         return self._any
 
     def take(self) -> Work:
-        """Return a function that does nothing, as the transforms are already in the buffer."""
+        """Return a function that does nothing, because the buffer already has the transforms."""
         self._any = False
         return lambda: None
 

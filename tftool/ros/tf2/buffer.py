@@ -124,7 +124,7 @@ class BufferInterface:
         self.registration = TransformRegistration()
 
     def _look_up(self, asked: "LookupRequest", timeout: Any) -> Any:
-        """Return the requested transform, waiting for it at most until the timeout.
+        """Return the requested transform; wait at most `timeout` until it is available.
 
         Raises:
             TransformException: If the transform is not available in time.
