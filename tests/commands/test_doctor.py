@@ -68,7 +68,7 @@ def test_without_a_source_the_session_or_the_turtles_are_examined(tftool):
 def test_a_check_can_be_explained_and_all_can_be_listed(tftool):
     result = tftool("doctor", "--explain", "split-tree")
     assert result.status == 0
-    assert result.out.startswith("split-tree: the frames form more than one tree")
+    assert result.out.startswith("split-tree: the frames form several trees")
     assert "\nsplit-tree " in tftool("doctor", "--list").out
 
 

@@ -179,7 +179,7 @@ def _example(group: "list[Track | Heard]", simulated: bool) -> int:
     because_of=(("anything", "time-jump-back"),),
 )
 def shifted_clock(model: Model, limits: Limits) -> Iterator[Hit]:
-    """All stamps differ from their reception by one constant."""
+    """Most stamps differ from the time of reception by the same constant."""
     if model.shift is None or model.unshifted:
         return  # `clock-offset` tells of the two clocks
     yield Hit(
@@ -292,7 +292,7 @@ def _ahead(model: Model, track: Track, ahead: int) -> Hit:
     "have it too",
 )
 def wild_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Single stamps differ greatly from those before and after."""
+    """Single stamps differ greatly from the stamps before and after."""
     streams: list[Track | Heard] = [*model.dynamic, *_placed(model)]
     for one in streams:
         places = np.flatnonzero(one.wild)
@@ -345,7 +345,7 @@ def wild_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     because_of=(("stream", "clock-mixture"),),
 )
 def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A sensor's stamps are in the future: two clocks differ."""
+    """A sensor's stamps are in the future, because two clocks differ."""
     alike: dict[int, list[Track | Heard]] = defaultdict(list)
     for track in model.unshifted:
         ahead = -track.median_latency

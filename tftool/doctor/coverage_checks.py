@@ -44,7 +44,7 @@ check = checks_of(Area.COVERAGE)
     because_of=(("anything", "namespaced-topic"),),
 )
 def static_missing(model: Model, limits: Limits) -> Iterator[Hit]:
-    """The recording has no statics, and sensors have no transforms."""
+    """The recording has no static transforms, and frames of sensors are not in tf."""
     if not model.lacks_statics:
         return
     unknown = [
@@ -91,7 +91,7 @@ def static_missing(model: Model, limits: Limits) -> Iterator[Hit]:
     needs=("durability",),
 )
 def static_not_latched(model: Model, limits: Limits) -> Iterator[Hit]:
-    """/tf_static is offered volatile: late listeners never get it."""
+    """/tf_static has volatile durability, so late subscribers never receive it."""
     static = {topic.name for topic in model.evidence.topics if topic.static}
     for publisher in model.evidence.publishers:
         if publisher.topic in static and publisher.durability == "volatile":
@@ -123,7 +123,7 @@ def static_not_latched(model: Model, limits: Limits) -> Iterator[Hit]:
     because_of=(("child", "static-and-dynamic"),),
 )
 def static_late(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Statics arrive later than messages that need them."""
+    """Static transforms arrive later than messages that need them."""
     spatial = [heard for heard in model.heard if heard.is_spatial and len(heard.logs)]
     earliest = min((int(heard.logs[0]) for heard in spatial), default=NEVER)
     for track in model.statics:
@@ -169,7 +169,7 @@ def static_late(model: Model, limits: Limits) -> Iterator[Hit]:
     why="rosbag latches the last message of each publisher, and rosbag2 keeps the last ten",
 )
 def latched_overwrite(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Statics are in several messages, and playback keeps only the last."""
+    """Static transforms are in several messages, and playback latches only the last ones."""
     transforms = model.evidence.transforms
     kept = 1 if is_ros1(model.evidence) else int(limits["kept"])
     held: dict[str, dict[int, set[str]]] = defaultdict(lambda: defaultdict(set))
@@ -313,7 +313,7 @@ def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Wa
     ),
 )
 def sensor_outruns_tf(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Lookups at the sensor's stamps refuse, because transforms arrive later."""
+    """Lookups at a sensor's stamps fail, because the transforms arrive later."""
     groups: list[list[tuple[Heard, Waits]]] = []
     for heard, waits in _waiting(model, limits):
         for group in groups:
@@ -550,7 +550,7 @@ def cache_short(model: Model, limits: Limits) -> Iterator[Hit]:
     ),
 )
 def late_start(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Lookups cannot succeed at first: an edge begins late or is stamped ahead."""
+    """The first lookups fail, because an edge begins late or is stamped ahead."""
     fixed = model.fixed_frame
     for heard in model.heard:
         if not heard.is_spatial or last_part(heard.type) == "NavSatFix":

@@ -63,7 +63,7 @@ def urdf_invalid(model: Model, limits: Limits) -> Iterator[Hit]:
     ),
 )
 def joint_without_state(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A movable joint has no state, so its link has no frame."""
+    """A movable joint has no joint state, so its link has no frame."""
     robot, told = model.evidence.robot, model.evidence.joints
     if robot is None or told is None:
         return
@@ -181,7 +181,7 @@ def urdf_frame_unpublished(model: Model, limits: Limits) -> Iterator[Hit]:
     because_of=(("edge", "static-changed"),),
 )
 def urdf_tf_mismatch(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A static differs from the robot description's fixed joint."""
+    """A static transform differs from the fixed joint in the robot description."""
     robot = model.evidence.robot
     if robot is None:
         return

@@ -381,7 +381,7 @@ def coarse_odometry(model: Model, limits: Limits) -> Iterator[Hit]:
     ),
 )
 def single_sample(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A moving frame with one sample only."""
+    """A moving frame has only one sample."""
     for track in model.dynamic:
         if len(track.stamps) == 1 and len(track.by_stamp) == 1:
             beside, fixes = "", list[Fix]()

@@ -222,7 +222,7 @@ def _renames(model: Model, name: str, alike: list[str], heards: list[Heard]) -> 
     needs=("headers",),
 )
 def slash_twins(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Messages name /x, tf knows x: every direct tf2 lookup refuses."""
+    """Messages name the frame /x, tf has the frame x, and tf2 lookups of /x fail."""
     is_old = is_ros1(model.evidence)
     for heard in model.heard:
         known = heard.frame[1:]

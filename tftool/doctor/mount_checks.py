@@ -39,7 +39,7 @@ _MEASURE = Fix(
     needs=("mounts",),
 )
 def mount_contradicts_motion(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A mount contradicts the motions of the two frames that it joins."""
+    """A sensor's mount contradicts the motions of the sensor and of the robot."""
     for one in model.evidence.mounts or ():
         outside = _outside(one.shift, limits["widths"] * one.widths, one.widths, limits)
         if outside:
@@ -62,7 +62,7 @@ def mount_contradicts_motion(model: Model, limits: Limits) -> Iterator[Hit]:
     needs=("mounts",),
 )
 def mount_changed(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A sensor moved on its robot, in the recording or since the one before."""
+    """A sensor moved on its robot, during the recording or since the previous recording."""
     for one in model.evidence.mounts or ():
         best: tuple[float, int, list[str]] | None = None
         for split in range(1, len(one.windows)):

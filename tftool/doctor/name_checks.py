@@ -203,7 +203,7 @@ def _shared(one: str, other: str) -> int:
     because_of=(("child", "static-and-dynamic"),),
 )
 def namespace_twins(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Some frames have a prefix that others lack."""
+    """The same frame names occur with and without a prefix."""
     names = set(_names(model))
     pairs: dict[str, list[tuple[str, str]]] = defaultdict(list)
     for name in sorted(names):
@@ -242,7 +242,7 @@ def namespace_twins(model: Model, limits: Limits) -> Iterator[Hit]:
     links=threads("iRobotEducation/create3_docs#402", "ros-navigation/navigation2#5449"),
 )
 def namespaced_topic(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Transforms are sent on /ns/tf, which default listeners do not subscribe."""
+    """Transforms are sent on /ns/tf, to which default listeners do not subscribe."""
     heard_on = {*_USUAL_TOPICS, *model.settings.tf_topics}
     heard_on |= {f"{topic}_static" for topic in model.settings.tf_topics}
     odd = sorted({t for track in model.tracks for t in track.topics} - heard_on)
@@ -310,7 +310,7 @@ def wrong_type(model: Model, limits: Limits) -> Iterator[Hit]:
     limits={"letters": 100},
 )
 def awkward_name(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A name with blanks, control characters, or that YAML reads as a number or a word."""
+    """A frame name has blanks or control characters, or is a number or a keyword in YAML."""
     for name in _names(model):
         reason = _awkward(name, limits)
         if reason:

@@ -274,7 +274,7 @@ _STANDS = 8
     limits={"metres": 1.5, "share": 0.05},
 )
 def odometry_cancelled(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A localiser takes back the motion that the odometry measures."""
+    """A localiser cancels the motion that the odometry measures."""
     for track in model.dynamic:
         for below in model.dynamic if track.is_localisation and len(track.by_stamp) else ():
             if below.parent != track.child or last_part(below.child) not in BASES:

@@ -32,7 +32,7 @@ check = checks_of(Area.COVERAGE)
     needs=("log times",),
 )
 def outage(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Most streams stop arriving at once for a time, and go on."""
+    """Most topics stop at the same time, and resume later."""
     if (stalled := _receiver_stalls(model, limits)) is not None:
         yield stalled
         return

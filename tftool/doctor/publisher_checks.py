@@ -301,7 +301,7 @@ def dynamic_on_static(model: Model, limits: Limits) -> Iterator[Hit]:
     limits={"values": 3, "metres": 5e-4, "radians": 1e-3},
 )
 def static_changed(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A static was published again with another value."""
+    """A static transform was published again with another value."""
     for values, hit in _values_of_statics(model, limits):
         if 2 <= values <= limits["values"]:
             yield hit
@@ -376,7 +376,7 @@ def _same(track: Track, one: int, other: int, limits: Limits) -> bool:
     because_of=(("child", "static-and-dynamic"),),
 )
 def static_on_tf(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A constant on /tf that could be static."""
+    """A transform on /tf is constant and could be static."""
     moving = [track for track in model.dynamic if track.moves]
     if not moving:
         return

@@ -137,7 +137,7 @@ def _circling(links: set[tuple[str, str]]) -> set[tuple[str, str]]:
     ),
 )
 def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
-    """The frames form more than one tree, and the join is missing."""
+    """The frames form several trees, and a transform between them is missing."""
     if len(model.trees) < 2:
         return
     main = next((tree for tree in model.trees if base_of(tree)), model.trees[0])
@@ -256,7 +256,7 @@ def self_transform(model: Model, limits: Limits) -> Iterator[Hit]:
     links=threads("christianrauch/apriltag_ros#57", "Intermodalics/tango_ros#157"),
 )
 def empty_frame(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A transform or a message without a frame name."""
+    """A transform or a message has no frame name."""
     kinds = {topic.name: last_part(topic.type) for topic in model.evidence.topics}
     for track in model.nameless:
         if not track.parent or not track.child:
@@ -331,7 +331,7 @@ def _name_it(model: Model, topic: str) -> Fix:
     ),
 )
 def rep105_shape(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Map, odom and base are not a chain."""
+    """The frames map, odom and base do not form a chain (REP-105)."""
     named: dict[str, list[str]] = defaultdict(list)
     for frame in sorted(model.frames):
         named[last_part(frame)].append(frame)

@@ -34,7 +34,7 @@ COMPARE_CLOCKS = Fix("compare the clocks of the computers (`date`, `chronyc trac
     ),
 )
 def zero_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A moving frame with stamp 0."""
+    """A moving frame has stamp 0."""
     for track in model.dynamic:
         zeros = np.flatnonzero(track.stamps == 0)
         if len(zeros):
@@ -162,7 +162,7 @@ _FROZEN = {"times": 10, "seconds": 1.0}
     ),
 )
 def repeated_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Stamps are sent twice: TF_REPEATED_DATA in ROS 1."""
+    """Transforms are sent twice with one stamp (TF_REPEATED_DATA in ROS 1)."""
     is_old = is_ros1(model.evidence)
     warns = is_old and model.evidence.end > _NOETIC
     for track in model.dynamic:
@@ -288,7 +288,7 @@ _NOETIC = seconds(1_590_000_000)
     ),
 )
 def old_data(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Samples are older than the cache allows: TF_OLD_DATA."""
+    """Transforms are older than the cache allows (TF_OLD_DATA)."""
     by_child: dict[str, list[Track]] = defaultdict(list)
     for track in model.dynamic:
         by_child[track.child].append(track)

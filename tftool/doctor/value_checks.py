@@ -44,7 +44,7 @@ _PICTURES = ("sensor_msgs/Image", "sensor_msgs/CameraInfo", "sensor_msgs/Compres
     links=threads("moveit/moveit2#298", "NVIDIA-ISAAC-ROS/isaac_ros_nvblox#16"),
 )
 def nan_transform(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A transform holds NaN or infinity."""
+    """A transform contains NaN or infinity."""
     for track in model.tracks:
         bad = np.flatnonzero(~track.finite)
         if len(bad):
@@ -497,7 +497,7 @@ def _stem(name: str) -> str | None:
     ),
 )
 def image_not_optical(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Images are stamped in a body frame."""
+    """Images are in a body frame instead of an optical frame."""
     for heard in model.heard:
         if heard.type not in _PICTURES or not heard.frame or "optical" in heard.frame:
             continue
@@ -548,7 +548,7 @@ def _axes_on_robot(model: Model, frame: str) -> tuple[Triple, Triple] | None:
     limits={"metres": 10.0},
 )
 def suspect_units(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A mount is far from its parent inside one robot: millimetres?"""
+    """A mount is so far from its base that its unit may be millimetres."""
     if not model.trees:
         return
     bases = {base_of(tree) for tree in model.trees} - {""}
@@ -573,7 +573,7 @@ def suspect_units(model: Model, limits: Limits) -> Iterator[Hit]:
     causes=("a quaternion written w first",),
 )
 def suspect_order(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A static is exactly (1, 0, 0, 0): w first by mistake?"""
+    """A static rotation is exactly (1, 0, 0, 0), perhaps because w was written first."""
     for track in model.statics:
         if any(word in track.child.lower() for word in ("imu", "flip", "optical")):
             continue
