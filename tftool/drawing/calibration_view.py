@@ -16,7 +16,7 @@ def lines(found: Calibration, width: int | None = None) -> str:
 
     Args:
         found: The calibration.
-        width: Longest line in cells; None for no limit.
+        width: Maximum length of a line in cells; None for no limit.
     """
     text: list[str] = []
     moving, fixed = ([visible(name) for name in names] for names in (found.moving, found.fixed))
@@ -125,7 +125,7 @@ def as_object(found: Calibration, check: dict[str, object] | None = None) -> dic
 
 
 def pose_object(pose: Transform | None) -> dict[str, Sequence[float]] | None:
-    """Return a pose's translation and rotation as a mapping, for --json."""
+    """Return a pose's translation and rotation as a mapping, for --json; None for no pose."""
     if pose is None:
         return None
     return {"translation": list(pose.translation), "rotation": list(pose.rotation)}

@@ -53,7 +53,7 @@ THICK_FROM: Final = 26
 
 
 class _KeptDrawing:
-    """Dots of the strokes drawn so far, and the number of these strokes."""
+    """Cache of a drawing: the dots of the strokes drawn so far, and the number of these strokes."""
 
     key: object = None
     done = 0
@@ -61,7 +61,7 @@ class _KeptDrawing:
 
 
 class Canvas:
-    """Drawer of pictures of one size, which keeps the dots of the trails for the next picture.
+    """Drawer of pictures of one size, with a cache of the trails for the next picture.
 
     Args:
         columns: Width of the picture in cells, including the scale.
@@ -69,13 +69,13 @@ class Canvas:
         ascii_only: Whether to draw with ASCII characters only.
         mono: Whether to draw without colours: axes then have letters, turtles are arrows.
         palette: Colours of the screen.
-        scaled: Whether to write metres at the left and below, if there is room.
+        scaled: Whether to write scales in metres at the left and below, if there is room.
 
     Attributes:
-        asked: Width and height in cells, including the scale.
+        asked: Requested width and height in cells, including the scale.
         columns: Width in cells without the scale.
         rows: Height in cells without the scale.
-        gutter: Cells at the left that the scale takes.
+        gutter: Width in cells of the scale at the left.
     """
 
     def __init__(
@@ -144,7 +144,7 @@ class Canvas:
         return ends
 
     def _gridded(self) -> Dots:
-        """Draw the grid as faint lines or, without colours, as dots where lines would cross."""
+        """Return the dots of the grid: lines or, in a picture without colours, only crossings."""
         dots, view = Dots(self.columns, self.rows), self._view
         right = view.left + 0.5 * view.per_row * self.columns
         top, step = view.bottom + view.per_row * self.rows, grid_step(view.per_row)
@@ -170,7 +170,10 @@ class Canvas:
         return inside
 
     def _ground_color(self, role: str, field: TurtleField | None) -> Numbers | int:
-        """Return a colour of `PaperColors`, such as "grid", for cells on the field and outside."""
+        """Return the packed colour of a role such as "grid"; with a field, the colour of each cell.
+
+        The roles are the names of colours in `PaperColors`.
+        """
         beside = packed(getattr(self._paper, role))
         if field is None:
             return beside
@@ -179,7 +182,10 @@ class Canvas:
     def _grow(
         self, kept: "_KeptDrawing", drawn: Drawn, place: object, field: TurtleField | None = None
     ) -> None:
-        """Draw the new strokes of a drawing; draw all if it was moved, replaced or shortened."""
+        """Draw the new strokes of `drawn` into its cache `kept`.
+
+        All strokes are drawn again if the drawing was moved, replaced or shortened.
+        """
         key, total = (place, drawn.edition), drawn.forgotten + len(drawn.strokes)
         if kept.key != key or total < kept.done:
             kept.key, kept.done = key, 0
@@ -200,7 +206,7 @@ class Canvas:
             kept.dots.draw(self._ends(lines[some]), colors[some], one)
 
     def _faint(self, colors: Numbers, field: TurtleField | None) -> Numbers:
-        """Return paler versions of colours, for the trails."""
+        """Return paler versions of the packed colours of cells, for the trails."""
         beside = colors
         if self._palette is theme.LIGHT:
             beside = blended(beside, theme.INK, 0.55)
@@ -212,7 +218,11 @@ class Canvas:
     # Drawn above it
 
     def _mark(self, sheet: CellSheet, picture: PlanePicture) -> Points:
-        """Draw walls, axes and lines to parents; return the cost of a name over each cell."""
+        """Draw walls, axes and lines to parents.
+
+        Returns:
+            Cost of each cell for a label that covers the cell, shape (rows, columns).
+        """
         view, field = self._view, picture.field
         links = [
             ends
@@ -251,7 +261,7 @@ class Canvas:
         return costs
 
     def _sign(self, sheet: CellSheet, picture: PlanePicture, costs: Points) -> None:
-        """Draw turtles, origins and names above the dots."""
+        """Draw turtles, origins and names over the lines and axes."""
         hard: set[tuple[int, int]] = set()
         labels: list[Label] = []
         per_metre = 1.0 / self._view.per_row
@@ -332,7 +342,7 @@ class Canvas:
         return sprites.badge(*place, one.theta, color, per_metre, blocks=not self._ascii)
 
     def _ink_of(self, one: PlaneFrame, *, on_field: bool) -> Color:
-        """Return a frame's colour, readable on or beside the field; amber or red if stale."""
+        """Return a colour for a frame that is readable on its background; amber or red if stale."""
         palette = theme.DARK if on_field else self._palette
         return theme.of_age(theme.readable(theme.of_name(one.name), palette), one.age, palette)
 
@@ -388,12 +398,12 @@ class Canvas:
 
 
 def axis_length(view: Viewport, rows: int) -> float:
-    """Return the length in metres at which frames' axes are drawn: a tenth of the picture."""
+    """Return the length of the frames' axes in metres, about a tenth of the picture's height."""
     return view.per_row * min(4.0, max(1.6, rows / 10.0))
 
 
 def metres(value: float, step: float) -> str:
-    """Format a number of a scale with as many decimals as the scale's step needs."""
+    """Format a number of a scale with the decimals that the `step` between two numbers needs."""
     digits = max(0, -math.floor(math.log10(step) + 1e-9))
     text = f"{value:.{digits}f}"
     return "0" if not text.strip("-0.") else text
@@ -436,7 +446,7 @@ _SIDES: Final = {
 
 
 def _dashes(start: Point, end: Point, dot: float) -> Iterator[tuple[float, float, float, float]]:
-    """Yield a straight line's dashes (x1, y1, x2, y2); a line of over 400 dashes is one dash."""
+    """Yield the dashes (x1, y1, x2, y2) of a line; if there are over 400, yield the whole line."""
     length = math.hypot(end[0] - start[0], end[1] - start[1])
     if not dot < length <= FARTHEST:
         return

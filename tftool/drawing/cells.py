@@ -62,7 +62,7 @@ _SIGNS: Final = {
 
 
 class Cell(NamedTuple):
-    """Content of one cell; if its background is None, the background already there is kept."""
+    """Character and colours of one cell; a `ground` of None does not change the background."""
 
     text: str
     ink: Color | None = None
@@ -76,7 +76,7 @@ def packed(color: Color | None) -> int:
 
 
 def blended(colors: Numbers, end: Color, share: float | Points) -> Numbers:
-    """Mix packed colours with `end`, whose fraction `share` is one number, or one per colour."""
+    """Mix packed colours with `end`; `share` is the fraction of `end`, for all or per colour."""
     parts = np.stack([colors >> 16, colors >> 8 & 255, colors & 255], -1)
     mixed = np.rint(parts + np.asarray(share)[..., None] * (np.array(end) - parts)).astype(np.int64)
     return np.where(colors < 0, NONE, mixed @ np.array([1 << 16, 1 << 8, 1]))
@@ -151,7 +151,7 @@ class Dots:
 
     Attributes:
         masks: Dots of each cell, as the bits of Unicode's braille characters.
-        colors: Packed colour of each cell, that of the dot set last.
+        colors: Packed colour of each cell: the colour of the last dot drawn there.
     """
 
     def __init__(self, columns: int, rows: int) -> None:
@@ -163,7 +163,7 @@ class Dots:
 
         Args:
             ends: Both ends of each line in dots, right and down, shape (n, 2, 2).
-            colors: Packed colour of each line, or one for all.
+            colors: Packed colour of each line, or one colour for all lines.
             wide: Width of the lines in dots.
         """
         rows, columns = self.masks.shape
@@ -175,18 +175,18 @@ class Dots:
             self.mark(x, y, inks)
 
     def mark(self, across: Numbers, down: Numbers, colors: Numbers | int) -> None:
-        """Set single dots, given by column and row."""
+        """Set single dots at the columns `across` and the rows `down`."""
         cells = down // 4, across // 2
         np.bitwise_or.at(self.masks, cells, _BITS[down % 4, across % 2])
         self.colors[cells] = colors
 
     def cover(self, above: "Dots") -> None:
-        """Lay other dots above these; in a cell with dots of both, only the upper dots show."""
+        """Replace the dots and colour of each cell that has dots in `above` by those of `above`."""
         marked = above.masks > 0
         self.masks[marked], self.colors[marked] = above.masks[marked], above.colors[marked]
 
     def rows(self, *, ascii_only: bool = False) -> list[list[tuple[str, str]]]:
-        """Return character and style of every cell; a blank without style if it has no dot."""
+        """Return (character, style) of every cell; a cell without dots is a blank without style."""
         signs = np.where(self.masks > 0, _SIGNS[ascii_only][self.masks], " ").tolist()
         return [
             [
@@ -212,12 +212,12 @@ def runs(cells: Iterable[tuple[str, str]]) -> list[tuple[str, str]]:
 
 
 def merged(layers: Sequence[Dots]) -> Dots:
-    """Merge several curves into one picture; a cell crossed by several curves has one colour.
+    """Merge several curves into one picture.
 
-    The colour is of a curve that is not level, if one crosses the cell; among such curves, of the
-    one with the fewest cells that no other curve crosses. The order is the same in all cells, so a
-    curve's colour does not alternate. Curves that are all level in the cell take turns, in dashes,
-    because no other sign shows that there are several.
+    A cell with several curves has the colour of a single curve. Curves that are not level take
+    precedence over level curves, and then curves with few cells of their own over curves with many.
+    This order is the same in all cells, so the colour does not alternate. Only where several level
+    curves coincide, dashes in alternating colours show that there are several.
 
     Args:
         layers: The dots of each curve, all of one size; at least one.
@@ -230,7 +230,7 @@ def merged(layers: Sequence[Dots]) -> Dots:
 
 
 def owners_of(layers: Sequence[Dots]) -> Numbers:
-    """Return the index of the curve that `merged` shows in each cell."""
+    """Return the index of the curve whose colour `merged` shows in each cell."""
     masks = np.stack([one.masks for one in layers])
     has = masks > 0
     is_level = has.any(2).sum(1) <= 1
@@ -267,7 +267,8 @@ class CellSheet:
 
         Args:
             dots: The dots.
-            colors: Packed colours by cell, or one for all; None for the dots' own.
+            colors: Packed colour of each cell, or one colour for all cells; None for the colours in
+                `dots`.
             ascii_only: Whether to write ASCII characters instead of braille.
         """
         marked = dots.masks > 0
@@ -299,8 +300,8 @@ class CellSheet:
         Args:
             column: Column of the first cell.
             row: Row of the cells.
-            text: Text, which must fit.
-            inks: Packed colours.
+            text: Text, which must fit into the row.
+            inks: Packed colour, or one packed colour per cell.
             bold: Whether to write in bold.
             clears: Whether to reset the background to the terminal's default.
         """
@@ -312,7 +313,7 @@ class CellSheet:
                 self.grounds[place] = NONE
 
     def lines(self, before: "CellSheet | None" = None) -> list[Line]:
-        """Return the sheet as rich's segments, one per run of cells with equal style.
+        """Return the sheet as lines of rich's segments, one segment per run of equal style.
 
         Args:
             before: Previous sheet of the same size, whose unchanged lines are reused.

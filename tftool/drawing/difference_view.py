@@ -26,7 +26,8 @@ def lines(found: Differences, width: int | None = None, *, everything: bool = Fa
 
     Args:
         found: The differences.
-        width: Longest line in cells: an edge's further text goes below its line. None for no limit.
+        width: Maximum length of a line in cells; None for no limit. Text that does not fit is
+            written below the line of its edge.
         everything: Whether to include the edges that do not differ.
     """
     told = found.links if everything else found.changed
@@ -229,12 +230,12 @@ _FIGURES: Final = ("rmse", "mean", "median", "std", "min", "max")
 
 
 def error_lines(found: TrajectoryErrors, names: tuple[str, str], width: int | None = None) -> str:
-    """Return errors as text: both trajectories, number of matched poses, a line per kind of error.
+    """Return errors as text: names, number of matched poses, and a line per kind of error.
 
     Args:
         found: The errors.
-        names: Names of trajectories A and B.
-        width: Longest line in cells; None for no limit.
+        names: Names of the two compared trajectories.
+        width: Maximum length of a line in cells; None for no limit.
     """
     text = [
         f"{side} {visible(name)}: {visible(source)} in {visible(target)}, {total} poses"
@@ -276,7 +277,7 @@ def errors_as_object(found: TrajectoryErrors, names: tuple[str, str]) -> dict[st
 
 
 def panels(found: TrajectoryErrors) -> list[PlotPanel]:
-    """Return a panel for each kind of error, over the seconds since the first matched pose."""
+    """Return a plot panel for each kind of error, over the seconds since the first matched pose."""
     start = min(int(one.stamps[0]) for one in found.columns)
     return [
         PlotPanel(one.name.upper(), one.unit.replace("deg", "°"), (_curve(one, start),))

@@ -1,7 +1,7 @@
 """Order of the frames in a drawing: children below parents, with tree lines and facts of each row.
 
-A buffer holds a forest, but data from elsewhere may contain loops. A frame that is its own ancestor
-must not make a drawing endless.
+The frames in a buffer form trees, but data from other sources may contain loops. So drawings also
+end if a frame is its own ancestor.
 """
 
 from collections.abc import Iterator
@@ -17,9 +17,10 @@ class Forest:
 
     Attributes:
         roots: Frames without a parent, and one frame of every loop.
-        loops: Those `roots` that have a parent; the edge to it closes a loop, and is not drawn.
+        loops: The roots that have a parent, because they are in a loop. The edge to this parent is
+            not drawn.
         children: Children to draw of every drawn frame, in order of registration.
-        hidden: Number of frames left out below a drawn frame, by the drawn frame's name.
+        hidden: Number of omitted frames below a drawn frame, by the name of the drawn frame.
         info: Every frame of the snapshot by its name.
     """
 
@@ -98,7 +99,15 @@ DEEPEST = 64
 
 @dataclass(frozen=True, slots=True)
 class Guides:
-    """Lines that draw a tree before names, such as "├── ", all of one width, and a gap."""
+    """Texts that draw the lines of a tree before names, such as "├── ", all of one width.
+
+    Attributes:
+        child: Text before a frame with later siblings.
+        last: Text before the last child of a frame.
+        past: Text below an ancestor with later siblings.
+        blank: Text below an ancestor that is a last child.
+        gap: Text between the lines and the name.
+    """
 
     child: str
     last: str
@@ -107,12 +116,12 @@ class Guides:
     gap: str = ""
 
     def lead(self, branch: "Branch", most: int | None = None, more: str = "…") -> str:
-        """Return the text before a frame's name: tree lines, or the depth as a number if too deep.
+        """Return the text before a frame's name: tree lines or, for a deep frame, its depth.
 
         Args:
             branch: Frame with its position in the tree.
-            most: Most cells for tree lines; None for as many as `DEEPEST` levels take.
-            more: Sign after the number, for the lines left out.
+            most: Maximum width of the tree lines in cells; None for the width of `DEEPEST` levels.
+            more: Sign after the depth, in place of the omitted lines.
         """
         if not branch.depth:
             return ""
@@ -183,7 +192,7 @@ class Facts:
     oldest: str
 
     def lines(self, *, units: bool) -> tuple[str, str, str, str, str]:
-        """Return five lines in rqt_tf_tree's words; with `units`, "Hz" and "s" are added."""
+        """Return five lines with the labels of rqt_tf_tree; `units` adds "Hz" and "s"."""
         hertz, second = (" Hz", " s") if units else ("", "")
         return (
             f"Broadcaster: {self.broadcaster}",
@@ -206,6 +215,6 @@ def facts(frame: FrameInfo) -> Facts:
 
 
 def recorded_at(now: Stamp) -> str:
-    """Return the line of a drawing that gives the snapshot's time."""
+    """Return the line of a drawing that shows the time of the snapshot."""
     whole, rest = divmod(now, NANOSECONDS)
     return f"Recorded at time: {whole + rest / 1e9}"

@@ -110,7 +110,7 @@ def age_style(age: Duration) -> str:
 
 
 def failure(now: Stamp, error: TransformException, frames: str) -> str:
-    """Format tf2_echo's message for a lookup that fails after it had worked.
+    """Format tf2_echo's message for a lookup that fails after earlier successful lookups.
 
     Args:
         now: Current time of the clock in nanoseconds.

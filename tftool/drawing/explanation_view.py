@@ -53,7 +53,14 @@ def reasons(
     remedies: Sequence[tuple[str, str]],
     useless: Sequence[str] = (),
 ) -> Padding:
-    """Return a table of tf2's error, the causes, the remedies, and what does not help."""
+    """Return a table of a lookup's error and its causes and remedies.
+
+    Args:
+        tf2: Text of tf2's error; empty for a successful lookup.
+        whys: Causes in sentences.
+        remedies: Remedies, each as a sentence and a command, which may be empty.
+        useless: Sentences about attempts that do not help.
+    """
     told = Table.grid(padding=(0, 2), pad_edge=False)
     told.add_column(no_wrap=True, min_width=5)
     told.add_column(overflow="fold")
@@ -71,7 +78,7 @@ def reasons(
 
 
 def so_far(found: Explanation) -> list[Text]:
-    """Return lines for a live view: whether the lookup succeeds so far, and why not."""
+    """Return lines for a live view: the present result of the lookup, and its causes."""
     line = Text(visible(f"so far: {found.source} in {found.target} "))
     line.append(*(("answers", "green") if found.available else ("is refused", "bold red")))
     return [line, *(Text(visible(f"        {why}")) for why in found.why)]
@@ -94,7 +101,7 @@ def _headline(found: Explanation) -> Text:
 
 
 def _later(found: Explanation) -> str:
-    """Return the end of a sentence: when the lookup would succeed instead; "" if unknown."""
+    """Return a clause about the time at which the lookup would succeed; "" without such a time."""
     if found.answerable_from is None:
         return ", and waiting would not help"
     late = found.answerable_from - found.asked
@@ -106,9 +113,10 @@ def _later(found: Explanation) -> str:
 
 
 class _Links:
-    """Table with a row for each edge; if rows are too wide, the message goes below its row.
+    """Table with a row for each edge of a lookup's path.
 
-    If even the other columns are too wide, they are not aligned and have no heading.
+    On a narrow terminal, the outcome at an edge is written below the row. On a very narrow one, the
+    other columns are not aligned and have no heading.
     """
 
     def __init__(self, found: Explanation) -> None:
@@ -191,7 +199,7 @@ def _refusal(link: TracedLink) -> str:
 
 
 def _base(found: Explanation) -> Stamp:
-    """Return the time shown as 0: the time of --at, else the recording's start, else 0."""
+    """Return the stamp that is shown as 0 s: the first stamp, or 0 for times of a simulation."""
     if found.stamp and found.stamp < SIMULATED_BELOW:
         return 0
     return found.epoch if found.epoch >= SIMULATED_BELOW else 0

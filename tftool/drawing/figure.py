@@ -101,10 +101,11 @@ def plot(
         target: Frame in which the poses are expressed; None with series of poses.
         source: Frame whose poses are drawn; None with series of poses.
         ax: Axes for one panel; None for a new figure with all panels.
-        what: "position", "rotation", "distance", "speed", "turn rate", or a single curve such as
-            "x" or "yaw". If empty, a new figure has all panels, and `ax` has the position.
+        what: Panels to draw: "position", "rotation", "distance", "speed", "turn rate", or a single
+            curve such as "x" or "yaw". If empty, a new figure has all panels, and `ax` shows the
+            position.
         xy: Whether to draw the path from above instead of curves over time.
-        start: Time in nanoseconds that is 0 on the axis; None for the first pose.
+        start: Stamp that is 0 on the time axis, nanoseconds; None for the first pose.
         dark: Whether a new figure has a dark background.
 
     Returns:

@@ -148,7 +148,7 @@ def areas(diagnosis: Diagnosis) -> str:
 
 
 def _clean(diagnosis: Diagnosis) -> Table:
-    """Return a table of the areas without a finding: a tick, the area, and a measured fact."""
+    """Return a table of the areas without a finding: tick, name of the area, and a measurement."""
     model = diagnosis.model
     evidence = model.evidence
     heard = len({one.topic for one in model.heard if len(one.stamps)})
@@ -176,7 +176,7 @@ def _clean(diagnosis: Diagnosis) -> Table:
 
 
 def _sources(model: Model) -> str:
-    """Return the number of nodes that publish transforms; of topics if no node is known."""
+    """Return the number of nodes that publish transforms, or of topics if no node name is known."""
     publishers = [one for track in model.tracks for one in track.publishers]
     nodes = {one.node for one in publishers if one.node}
     if nodes:
@@ -185,7 +185,7 @@ def _sources(model: Model) -> str:
 
 
 def _fine(diagnosis: Diagnosis) -> list[tuple[Area, str]]:
-    """Return the areas that have no finding, and why a reader may not call them fine; else ""."""
+    """Return the areas without a finding, each with a reservation such as "skipped", or ""."""
     wrong = {finding.area for finding in diagnosis.findings if finding.is_shown}
     skipped = {one.id: one.reason for one in diagnosis.skipped}
     told = []
@@ -249,7 +249,10 @@ def brief(diagnosis: Diagnosis) -> str:
 
 
 def _folded(diagnosis: Diagnosis) -> dict[str, list[str]]:
-    """Map the check of each cause to its consequences: checks and numbers of findings."""
+    """Return the consequences of each cause, by the id of the causing check.
+
+    A consequence is the id of a check, with the number of findings if there are several.
+    """
     counts: dict[str, dict[str, int]] = {}
     for finding in diagnosis.findings:
         if finding.because_of is not None:
@@ -342,7 +345,7 @@ def explained(check: Check, width: int | None = None) -> str:
 
     Args:
         check: The check.
-        width: Longest line in cells; longer lines are wrapped between words. None for no limit.
+        width: Maximum length of a line in cells, None for no limit; lines are wrapped at spaces.
     """
     lines = [
         f"{check.id}: {check.summary}",

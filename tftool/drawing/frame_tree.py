@@ -397,7 +397,7 @@ def compact(
 
 
 def _of_robot(branch: Branch, moving: Collection[str]) -> Branch:
-    """Return a row of a robot description in which a frame is static if its joint is fixed."""
+    """Mark the frame in a row of a robot description as static unless its joint is in `moving`."""
     info = branch.info
     return replace(branch, info=info._replace(is_static=info.frame not in moving))
 
@@ -503,7 +503,7 @@ def _link_columns(
 
 
 class _Drawing:
-    """First column of a compact tree: tree lines followed by names."""
+    """First column of a compact tree: the tree lines and the names of the frames."""
 
     def __init__(
         self,
@@ -547,7 +547,7 @@ def _has_stopped(info: FrameInfo) -> bool:
 
 
 def _is_late(info: FrameInfo) -> bool:
-    """Return whether a moving frame has stopped, or is silent for as long as the demo allows."""
+    """Whether a moving frame has stopped, or the newest sample of the frame is stale."""
     is_moving = info.parent is not None and not info.is_static
     return is_moving and (_has_stopped(info) or theme.is_stale(as_seconds(info.age)))
 

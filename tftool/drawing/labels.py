@@ -136,7 +136,7 @@ class Placer:
     def _places(
         self, label: Label, width: int
     ) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64], Floats]:
-        """Return column, row and cost of each place of a label, from near to far."""
+        """Return column, row and cost of each possible position of a label, from near to far."""
         aside, down, cost = _around(label.reach, width, self._asides).T
         before = self._before.get(label.name)
         if before is not None:
@@ -149,7 +149,15 @@ class Placer:
 
 @lru_cache(maxsize=512)
 def _around(reach: int, width: int, asides: tuple[int, ...]) -> Floats:
-    """Return the places around a symbol: columns to the right, rows down, cost; shape (n, 3)."""
+    """Return possible positions of a label around a symbol, shape (n, 3).
+
+    Each row has the columns to the right of the symbol, the rows below the symbol, and the cost.
+
+    Args:
+        reach: Cells that the symbol takes to either side.
+        width: Width of the label in cells.
+        asides: Distances in columns that the label may have from the symbol.
+    """
     found = []
     for away in range(FARTHEST_ROWS + 1):
         for down in (away, -away)[: 1 + (away > 0)]:
@@ -168,7 +176,7 @@ def _apart(
     rows: npt.NDArray[np.int64],
     width: int,
 ) -> tuple[Floats, Floats]:
-    """Return the squared rows between texts and symbols, and between texts and symbols' centres.
+    """Return squared distances between texts and symbols, in units of the height of a row.
 
     Args:
         spots: Column, row and reach of each symbol, shape (m, 3).
@@ -177,7 +185,8 @@ def _apart(
         width: Width of the texts in cells.
 
     Returns:
-        Two arrays of shape (m, n).
+        Squared distances from the texts to the edges of the symbols, and to the centres of the
+        symbols, each of shape (m, n).
     """
     column, row, reach = spots.T[:, :, None]
     across = np.abs(np.clip(column, columns, columns + width - 1) - column)

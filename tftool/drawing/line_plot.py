@@ -65,12 +65,12 @@ class PlotLook:
 
     Attributes:
         width: Width in cells.
-        height: Height in lines; None to choose.
+        height: Height in lines; None for a height that suits the panels.
         ascii_only: Whether to draw with ASCII characters.
         light: Whether the background is light.
-        numbered: Whether to show each curve's number, which is also the key that hides the curve.
+        numbered: Whether to show each curve's number: the key that hides the curve.
         hidden: Numbers of the curves that are hidden.
-        marked: Whether curves of one panel are told apart by their numbers, not only by colours.
+        marked: Whether to write each curve's number on the curve, in addition to its colour.
     """
 
     width: int = 80
@@ -87,7 +87,7 @@ class PlotLook:
         return _LIGHT if self.light else _DARK
 
     def color(self, number: int) -> Color:
-        """Return the colour of a curve by its number, so that panels differ in colour."""
+        """Return the colour of the curve with a number, which counts through all panels."""
         return self.colors[(number - 1) % len(self.colors)]
 
     @property
@@ -108,7 +108,7 @@ def over_time(
 
     Args:
         found: Trajectories of the pairs.
-        start: Time in nanoseconds that is 0 on the axis.
+        start: Stamp that is 0 on the time axis, nanoseconds.
         quantities: Quantities to draw, of `pair_series.QUANTITIES`.
         look: Size and style of the plot.
         span: First and last second of the axis; None for the first and last second of the data.
@@ -240,7 +240,12 @@ def _titled(panel: PlotPanel, look: PlotLook, number: int, note: str) -> Text:
 
 
 def _value(last: float, largest: float) -> str:
-    """Format the last value of a curve in a panel whose largest value is given."""
+    """Format the last value of a curve, without digits that are noise beside `largest`.
+
+    Args:
+        last: The last value.
+        largest: Largest absolute value in the panel.
+    """
     if abs(last) < NOISE * largest:
         return "0"
     # Beside values of a tenth and more, powers of ten would only show noise.
@@ -294,7 +299,7 @@ def _drawn(
 
 
 def _sign(number: int) -> str:
-    """Return the sign of a curve: its number, or a letter after 9."""
+    """Return the character that stands for a curve: its number, or a letter from the tenth on."""
     return _SIGNS[number % len(_SIGNS)]
 
 
@@ -305,9 +310,9 @@ def _mark(
     *,
     ascii_only: bool,
 ) -> None:
-    """Write each curve's sign into some cells that show the curve, a few cells apart.
+    """Write each curve's character into some cells of the curve, a few cells apart.
 
-    In ASCII, the cells between them have "-", and "=" where several curves are.
+    In ASCII, the other cells of curves have "-", or "=" for several curves in the cell.
     """
     counts = np.sum([one.masks > 0 for one in layers], axis=0)
     owners = np.where(counts > 0, owners_of(layers), -1).T
@@ -322,9 +327,9 @@ def _mark(
 
 
 def _ticks(limits: tuple[float, float], rows: int) -> list[float]:
-    """Return ticks of a vertical axis, a whole number of lines apart, from first to last line.
+    """Return ticks of a vertical axis, from the first to the last line of the panel.
 
-    So every tick's label is in a line of text exactly at the tick's height.
+    The distance of two ticks is a whole number of lines, so each label is exactly at its tick.
     """
     choices = (2,) if rows < 5 else (3,) if rows < 10 else (6, 5, 4, 3)
     found = (round_ticks(*limits, most) for most in choices)
@@ -390,8 +395,8 @@ class PlotSpan:
     Attributes:
         first: First time.
         last: Last time.
-        start: Time that is 0 on the axis.
-        cursor: Time to mark; None for the last time.
+        start: Time that is 0 on the time axis.
+        cursor: Time to mark; None for `last`.
     """
 
     first: Stamp

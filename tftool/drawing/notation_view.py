@@ -42,7 +42,7 @@ def as_object(transform: Transform) -> dict[str, object]:
 
 
 def alone(transform: Transform, form: str, *, degrees: bool = False) -> str:
-    """Return a transform in one notation with full precision, a line per row.
+    """Return a transform in one notation with full precision; a matrix has a line per row.
 
     Args:
         transform: Transform to write.
@@ -71,7 +71,7 @@ def lines(
     Args:
         transform: Transform to write.
         with_translation: Whether to write the translation as well.
-        precision: Decimals.
+        precision: Number of decimals.
         all_orders: Whether to add all 24 orders of Euler angles.
     """
     turn = transform.rotation

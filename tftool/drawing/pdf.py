@@ -1,7 +1,7 @@
 """PDF file of a tree picture: one page of the picture's size, in Helvetica, without a library.
 
 Every PDF reader includes Helvetica, but only its Western European letters. Any other letter is
-written as its code, <U+4E16>, so that none disappears.
+written as its code, such as <U+4E16>.
 
 Boxes are sized by Helvetica's published letter widths. Browsers draw the same pictures with a font
 of similar width.
@@ -43,7 +43,7 @@ def _char_width(char: str) -> int:
 
 
 def fit(text: str, size: float, room: float, *, bold: bool = False) -> str:
-    """Shorten a text in its middle until it is at most `room` wide."""
+    """Shorten a text in the middle until its width is at most `room`, in the unit of `size`."""
     if width(text, size, bold=bold) <= room:
         return text
     budget = room - width("…", size, bold=bold)
@@ -119,14 +119,14 @@ def render(picture: "Picture") -> bytes:
 
 
 def missing_letters(picture: "Picture") -> str:
-    """Return the letters in a picture that Helvetica lacks, each once, in order."""
+    """Return the letters in a picture that Helvetica lacks, without repetitions."""
     return "".join(
         dict.fromkeys(char for text in picture.texts for char in text.text if not _has_letter(char))
     )
 
 
 def _file(objects: list[bytes]) -> bytes:
-    """Return a PDF file with objects numbered in order; the last object is the catalogue."""
+    """Return the bytes of a PDF file from its objects; the last object is the catalogue."""
     out = bytearray(b"%PDF-1.4\n%\xe2\xe3\xcf\xd3\n")
     offsets = []
     for number, body in enumerate(objects, start=1):

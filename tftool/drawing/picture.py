@@ -106,8 +106,8 @@ def lay_out(snapshot: Snapshot, *, most: int = MOST_DRAWN, stale: Collection[str
 
     Args:
         snapshot: Frames to draw.
-        most: Most frames to draw; if there are more, the picture shows how many are left out.
-        stale: Frames that are not published any more; their cards show their age.
+        most: Maximum number of frames to draw; the picture shows the number of omitted frames.
+        stale: Frames that are not published any more; the cards of these frames show the age.
     """
     forest = grow(snapshot, most=most)
     sheet = _Sheet(forest, _cards(forest, stale), down=True)
@@ -131,8 +131,8 @@ class _Card:
 def _cards(forest: Forest, stale: Collection[str]) -> dict[str, _Card]:
     """Return the cards of the drawn frames, by frame name.
 
-    If frames below a frame are left out, a further card shows their number. Its key is the frame's
-    name followed by a newline.
+    If the descendants of a frame are omitted, a further card shows their number. The key of this
+    card is the frame's name, a newline and "rest".
     """
     cards = {}
     shown = distinct(forest.children)
@@ -229,7 +229,7 @@ class _Sheet:
         self._items_placed = (items, corners)
 
     def squareness(self) -> float:
-        """Return how far the sheet's shape differs from a screen's (1.6 to 1); 0 if equal."""
+        """Return how much the sheet's aspect ratio differs from 1.6 to 1, that of a screen."""
         return abs(math.log(self.width / self.height / 1.6))
 
     def _items(self) -> list[Item]:
@@ -264,7 +264,11 @@ class _Sheet:
         return math.ceil((subject.width + ACROSS_GAP) / self.pitch)
 
     def _below(self, name: str) -> list[tuple[_Card | _Group, str | None]]:
-        """Return the cards below a frame; many leaves are joined in one group."""
+        """Return the cards and groups below a frame, each with its frame.
+
+        Many leaves form one group. The frame is None for a group, and for the card that shows the
+        number of omitted frames.
+        """
         children = [*self.forest.children[name]]
         if name in self.forest.hidden:
             children.append(_rest(name))

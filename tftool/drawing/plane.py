@@ -95,7 +95,7 @@ class TurtleField:
 
 @dataclass(frozen=True, slots=True)
 class Drawn:
-    """Strokes of one drawing; strokes are only added, until the whole drawing is replaced.
+    """Strokes of one drawing, to which strokes are only added until the drawing is replaced.
 
     Attributes:
         strokes: The newest strokes, oldest first.
@@ -132,7 +132,7 @@ class PlanePicture:
         pen: Lines of the turtles' pens, in metres of the field.
         trails: Paths of moving frames, in metres of the fixed frame, oldest first.
         pair: Target and source of the shown pair, which a line connects.
-        apart: Pictures of the other trees, each in its own root.
+        apart: Pictures of the other trees, each in the frame of the tree's root.
         nowhere: Frames of the fixed frame's tree that have no pose at this time.
     """
 
@@ -146,7 +146,7 @@ class PlanePicture:
     nowhere: tuple[str, ...] = ()
 
     def bounds(self) -> Box:
-        """Return the box around the picture; if anything is beside the field, with a margin."""
+        """Return the box around the field, frames and trails, with a margin around outer frames."""
         field = None if self.field is None else _box(self.field.corners())
         points = [(one.x, one.y) for one in self.frames]
         if len(self.trails.ends):
@@ -165,7 +165,7 @@ class PlanePicture:
 
 
 class Viewport(NamedTuple):
-    """Visible part of a plane: its lower left corner, and the metres of one row of cells."""
+    """Visible part of a plane: lower left corner in metres, and metres per row of cells."""
 
     left: float
     bottom: float
@@ -181,7 +181,11 @@ def fitted_view(box: Box, columns: int, rows: int) -> Viewport:
 
 
 def grid_step(per_row: float) -> float:
-    """Return the step of a grid in metres: 1, 2 or 5 times a power of ten."""
+    """Return the step of a grid in metres, 1, 2 or 5 times a power of ten.
+
+    Args:
+        per_row: Metres per row of cells.
+    """
     wanted = _APART * per_row
     power = 10.0 ** math.floor(math.log10(wanted))
     return next(power * step for step in (1.0, 2.0, 5.0, 10.0) if power * step >= wanted * 0.999)

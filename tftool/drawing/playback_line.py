@@ -1,4 +1,4 @@
-"""Timeline of a recording that is being played, its findings, and its topics."""
+"""Timeline, findings and topics of a recording during playback."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -47,7 +47,7 @@ class PlaybackMark:
         until: End of the finding, nanoseconds from the recording's start.
         message: Text of the finding, one line.
         severity: Severity of the finding.
-        is_timed: Whether the finding has a time; without a time it is only listed.
+        is_timed: Whether the finding has a time; a finding without a time is not in the bar.
     """
 
     since: Duration
@@ -66,7 +66,7 @@ class Playback:
         total: Duration of the recording, nanoseconds.
         rate: Seconds of the recording per real second.
         is_paused: Whether the player is paused.
-        laps: Number of restarts.
+        laps: Number of restarts from the beginning.
         marks: Findings of the doctor, the worst first.
     """
 
@@ -79,7 +79,7 @@ class Playback:
 
     @property
     def is_over(self) -> bool:
-        """Whether the player waits at the end."""
+        """Whether the player waits at the end of the recording."""
         return self.is_paused and self.done >= self.total
 
 
@@ -89,9 +89,9 @@ class PlayedTopic:
 
     Attributes:
         name: Name of the topic.
-        count: Number of its messages.
-        moments: Times of its messages, nanoseconds from the recording's start, ascending; None if
-            the times are not known.
+        count: Number of messages on the topic.
+        moments: Times of the messages, nanoseconds from the recording's start, ascending; None if
+            the times are unknown.
     """
 
     name: str
@@ -107,7 +107,7 @@ def lines(
     ascii_only: bool = False,
     palette: theme.Palette = theme.DARK,
 ) -> list[Text]:
-    """Return four lines: position and rate, density of messages, findings, and seconds.
+    """Return four lines: position and rate, density of transforms, findings, and time axis.
 
     Args:
         playback: State of the player.
@@ -151,7 +151,7 @@ def keys(playback: Playback, *, ascii_only: bool = False) -> list[tuple[str, str
 
 
 def _bar(playback: Playback, room: int, ascii_only: bool, palette: theme.Palette) -> Text:
-    """Return the timeline: findings as coloured spans, and the position drawn over the spans."""
+    """Return the bar of the timeline: findings as coloured spans, and the position on top."""
     full = _place(playback.done, playback, room)
     solid, empty = ("#", ".") if ascii_only else ("━", "─")
     played, dim = theme.hexadecimal(palette.accent), theme.hexadecimal(palette.dim)
@@ -186,12 +186,12 @@ def finding_lines(
     ascii_only: bool = False,
     palette: theme.Palette = theme.DARK,
 ) -> list[Text]:
-    """Return the findings in order of time, a line each; the nearest to the position is lit.
+    """Return one line per finding in order of time; the finding nearest to the position is bright.
 
     Args:
         playback: State of the player.
-        width: Longest line in cells.
-        height: Most lines; the nearest finding is one of them.
+        width: Maximum length of a line in cells.
+        height: Maximum number of lines; the nearest finding is always shown.
         ascii_only: Whether to draw in ASCII.
         palette: Colours of the findings.
     """
@@ -232,13 +232,13 @@ def topic_lines(
     ascii_only: bool = False,
     palette: theme.Palette = theme.DARK,
 ) -> list[Text]:
-    """Return the topics with their rates, a line each; a lit sign marks a message just now.
+    """Return one line per topic with the rate; a bright sign shows that a message just came.
 
     Args:
         topics: Topics of the recording.
         playback: State of the player.
         width: Width in cells.
-        height: Most lines; the last line counts topics that do not fit.
+        height: Maximum number of lines; the last line counts topics that do not fit.
         ascii_only: Whether to draw in ASCII.
         palette: Colours of the screen.
     """

@@ -27,8 +27,8 @@ def as_text(recording: Recording, width: int | None = None, name: str | None = N
 
     Args:
         recording: The recording.
-        width: Longest line in cells: sentences are wrapped, and columns that do not fit are left
-            out. None for no limit.
+        width: Maximum length of a line in cells, None for no limit. Sentences are wrapped, and
+            columns that do not fit are omitted.
         name: Name to print instead of the opened path.
     """
     source = recording.source
@@ -235,14 +235,14 @@ def table(
     goes: tuple[str, ...] = (),
     right: tuple[str, ...] = (),
 ) -> list[str]:
-    """Format a table as lines; a column is as wide as its widest cell, up to a limit.
+    """Format a table as lines of text, with columns as wide as their widest cells.
 
     Args:
         heads: Headings of the columns.
         rows: Cells of each row.
-        width: Longest line in cells; None for no limit.
-        goes: Headings of columns to narrow or leave out if the table is too wide, in this order.
-        right: Headings of columns to align to the right, as numbers are.
+        width: Maximum length of a line in cells; None for no limit.
+        goes: Headings of columns to narrow or omit if the table is too wide, in this order.
+        right: Headings of columns with numbers, which are aligned to the right.
     """
     widths = [min(_WIDEST, max(map(len, column))) for column in zip(heads, *rows, strict=True)]
     lines = [
@@ -299,7 +299,7 @@ def _moment(stamp: Stamp) -> str:
 
 
 def as_lines(rows: Sequence[Mapping[str, Any]], width: int | None = None) -> str:
-    """Return a line for each of several recordings, with problems in lines below.
+    """Return one line per recording; problems of a recording are in further lines.
 
     Args:
         rows: Facts of each recording, or the reason why it could not be read.
@@ -343,7 +343,8 @@ def robot_as_text(name: str, robot: Robot, width: int | None = None) -> str:
     Args:
         name: Name of the description, as given.
         robot: The described robot.
-        width: Longest line in cells; columns without room are left out. None for no limit.
+        width: Maximum length of a line in cells, None for no limit; columns that do not fit are
+            omitted.
     """
     links, joints = robot.links, robot.joints
     moving = sum(joint.moves for joint in joints.values())

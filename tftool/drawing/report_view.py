@@ -14,7 +14,7 @@ from tftool.base.report import Judgement, Report
 
 
 def render(reports: Sequence[Report]) -> Table:
-    """Return a table with a line for each report, followed by the report's failures."""
+    """Return a table with a line for each report; the failures of a report follow its line."""
     table = Table.grid(padding=(0, 2), pad_edge=False)
     for _ in range(3):
         table.add_column(overflow="fold")
@@ -74,7 +74,7 @@ def render_all(reports: Sequence[Report]) -> Table:
 
 
 def summary(reports: Sequence[Report], noun: str = "scenario") -> str:
-    """Summarise the reports in one sentence; `noun` is the word for the subject of a report."""
+    """Summarise the reports in one sentence; `noun` names a report's subject in the singular."""
     bad = [report for report in reports if not report.ok]
     judgements = [judgement for report in reports for judgement in report.judgements]
     held = sum(judgement.ok for judgement in judgements)
@@ -120,7 +120,7 @@ def as_rows(reports: Sequence[Report]) -> list[dict[str, Any]]:
 def as_junit(
     reports: Sequence[Report], command: str = "tftool check", whole: str = "plays to its end"
 ) -> str:
-    """Return reports as a JUnit XML document; its times are the scenarios' simulated times.
+    """Return reports as a JUnit XML document; durations are simulated times of the scenarios.
 
     Args:
         reports: The reports.

@@ -19,8 +19,8 @@ SCHEMA: Final = "https://json.schemastore.org/sarif-2.1.0.json"
 def as_sarif(rows: "Sequence[tuple[str, Diagnosis | str]]") -> str:
     """Return the reports of several sources as one SARIF document.
 
-    Findings that another finding explains are left out, as in every report. A source that cannot be
-    read is a notification of the run, which then counts as unsuccessful.
+    Findings that another finding explains are omitted, as in every report. An unreadable source
+    becomes a notification of the run, and marks the run as unsuccessful.
 
     Args:
         rows: Each source with its diagnosis, or the reason why it could not be read.

@@ -32,8 +32,8 @@ def lines(
     Args:
         found: Output of `tftool session --json`.
         verbose: Whether to list the services that every node has.
-        width: Cells of a line, to which long lists are wrapped; None for one line per list.
-        height: Lines of the terminal; if the output is longer, it is shortened. None for no limit.
+        width: Width in cells to which long lists are wrapped; None for one line per list.
+        height: Height of the terminal in lines; longer output is shortened. None for no limit.
         ascii_only: Whether to draw with ASCII only.
     """
     writer = _Writer(width, "~" if ascii_only else "…")
@@ -102,7 +102,7 @@ def _brief(
     *,
     ascii_only: bool,
 ) -> list[Text]:
-    """Return topics in one line each, and services in few lines, for a small terminal."""
+    """Return short lines for a small terminal: one per topic, and few for all services."""
     shown = {name: one for name, one in topics.items() if "/_action/" not in name}
     arrow = "->" if ascii_only else "→"
     most = max(16, (writer.width or 80) // 2)
@@ -139,9 +139,10 @@ def _brief(
 
 
 def _few(nodes: Iterable[str], width: int, more: str, *, after: Sequence[str] = ()) -> str:
-    """Return the names of nodes; if they are too long, the first name and the number of others.
+    """Return the names of nodes in at most `width` cells.
 
-    Names in `after` are last, so that a topic names its two sides.
+    If the names are too long, return the first name and the number of other nodes. The names in
+    `after` (publishers of the same topic) come last, so a subscriber with another name is shown.
     """
     found = sorted(set(nodes), key=lambda node: (node in after, node))
     names = ", ".join(map(visible, found)) or "-"
@@ -161,7 +162,14 @@ class _Writer:
     def heading(
         self, what: str, count: int, more: str = "", *, shown: int | None = None
     ) -> list[Text]:
-        """Return a heading with the kind of the listed things and their number."""
+        """Return the lines of a heading, such as "Topics (12, 5 shown)".
+
+        Args:
+            what: Kind of the listed things, in the plural.
+            count: Number of all things.
+            more: Text after the heading.
+            shown: Number of the listed things; None for all.
+        """
         part = "" if shown in (None, count) else f", {shown} shown"
         # On a terminal, a blank line keeps the lists apart.
         above = [Text()] * (self.width is not None and what != "Processes")
@@ -170,7 +178,10 @@ class _Writer:
     def rows(
         self, names: Sequence[str], columns: Sequence[TableColumn] = (), lists: Sequence[str] = ()
     ) -> list[Text]:
-        """Return a row for each name: its columns, then its list at the end or in a line below."""
+        """Return a row for each name, with its columns and its list.
+
+        With a width, the list is wrapped in lines below the row; else the list ends the row.
+        """
         if not names:
             return []
         longest = max(map(cell_len, names))
@@ -202,6 +213,6 @@ def _names(nodes: Iterable[str], none: str) -> str:
 
 
 def _goes_without_saying(name: str, ros_type: str) -> bool:
-    """Return whether to omit a service, because every node has it or ROS 2 hides it."""
+    """Whether to omit a service, because every node has the service or its name is hidden."""
     hidden = any(part.startswith("_") for part in name.split("/"))
     return hidden or ros_type.startswith(_EVERY_NODES)

@@ -22,7 +22,7 @@ _INKS: Final = {"name": "#171c24", "fact": "#5a6472", "note": "#8a6a17"}
 
 
 def render(picture: Picture) -> bytes:
-    """Return a picture as the bytes of a PNG file, two pixels per point unless very large.
+    """Return a picture as the bytes of a PNG file; a very large picture has a lower resolution.
 
     Raises:
         UsageError: If the extra `plot` is not installed.

@@ -45,7 +45,8 @@ class Solids:
 
     Attributes:
         frames: Names of the frames.
-        ends: For each frame, the index after its last corner and after its last triangle.
+        ends: For each frame, the end of its rows in `points` and the end of its rows in
+            `triangles`.
         points: Corners in coordinates of their frames, metres, shape (n, 3).
         triangles: Indices of three corners each, shape (m, 3).
         colors: Red, green and blue from 0 to 1 of each triangle, shape (m, 3).
@@ -58,7 +59,10 @@ class Solids:
     colors: Floats
 
     def placed(self, poses: Mapping[str, Transform]) -> Floats:
-        """Return all corners at the frames' given poses; NaN for frames without a pose."""
+        """Return all corners in the coordinates of the given poses, metres, shape (n, 3).
+
+        Corners of frames without a pose are NaN.
+        """
         placed = np.full_like(self.points, np.nan)
         first = 0
         for frame, (end, _) in zip(self.frames, self.ends, strict=True):
@@ -70,7 +74,7 @@ class Solids:
         return placed
 
     def parts(self) -> Indices:
-        """Return the index of each triangle's frame, shape (m,)."""
+        """Return the index in `frames` of each triangle's frame, shape (m,)."""
         ends = [end for _, end in self.ends]
         return np.repeat(np.arange(len(ends)), np.diff([0, *ends]))
 
@@ -90,7 +94,7 @@ def solids_of(
         prefix: Prefix of a frame's name before the link's name.
         most: Approximate limit on the number of triangles.
         joints: Joints of the robot. A link whose meshes are not found is drawn as rods to its
-            joints, and so are all links of a robot without any shape.
+            joints. All links of a robot without any shape are drawn in this way.
 
     Returns:
         The triangles, and sentences about meshes that are not shown.
@@ -124,7 +128,15 @@ def solids_of(
 
 
 def _rods(joints: Iterable[RobotJoint], links: Collection[str]) -> dict[str, list[Mesh]]:
-    """Return, for each of some links, rods from its origin to its joints, and a ball as origin."""
+    """Return shapes for links without meshes: rods from a link's origin to its joints, and a ball.
+
+    Args:
+        joints: Joints of the robot.
+        links: Names of the links to draw.
+
+    Returns:
+        Shapes by the name of the link.
+    """
     origins = [(one.parent, one.child, np.array(one.origin.translation)) for one in joints]
     longest = max((float(np.linalg.norm(end)) for _, _, end in origins), default=0.0)
     rods: dict[str, list[Mesh]] = {}
@@ -230,7 +242,7 @@ def _surface(shape: LinkShape, folders: MeshFolders) -> list[Mesh]:
 
 
 def _turned(outline: npt.NDArray[np.float64]) -> Mesh:
-    """Return the surface that an outline of radii and heights sweeps around the z axis."""
+    """Return the surface of revolution around the z axis of an outline (radius, height), (n, 2)."""
     angles = np.arange(_AROUND) * (2.0 * np.pi / _AROUND)
     radii, heights = outline[:, 0][:, None], outline[:, 1][:, None]
     rings = np.stack(

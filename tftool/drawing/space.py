@@ -67,10 +67,10 @@ class SpacePicture:
         frames: Frames of the fixed frame's tree.
         solids: Shapes that move with the frames.
         lines: Trails and other lines.
-        chosen: Name of the frame under the cursor, drawn in bold with a coloured solid.
+        chosen: Name of the frame under the cursor: its name is bold and its solid coloured.
         pair: Names of two frames that a line connects.
-        names_all: Whether to name all frames of a robot, not only its root, its tips and the chosen
-            frame.
+        names_all: Whether to name all frames of a robot. Otherwise only the root, frames without
+            children and the chosen frame are named.
     """
 
     fixed: str = ""
@@ -109,11 +109,11 @@ class Viewpoint(NamedTuple):
 class OrbitCamera:
     """Camera that orbits a scene, and shows the whole scene until the user zooms or pans.
 
-    Until the user chooses a direction, the camera looks at a flat scene from above, and else from
-    the direction from which the scene is largest.
+    Until the user chooses a direction, the camera looks from above at a flat scene. It looks at
+    other scenes from the direction in which the scene appears largest.
 
-    Until the user zooms or pans, the view grows at once with the scene, and shrinks only when most
-    of the view is empty.
+    Until the user zooms or pans, the view grows at once with the scene. The view shrinks only when
+    most of the view is empty.
 
     Attributes:
         name: Name of the view; "orbit" after the camera was turned.
@@ -141,7 +141,7 @@ class OrbitCamera:
         self.look_from(names[(names.index(self.name) + 1) % len(names)])
 
     def turn(self, right: float, up: float) -> None:
-        """Orbit the scene by a number of steps to the right and up."""
+        """Orbit the scene by a number of steps to the right and of steps up."""
         self.name, self._is_chosen = "orbit", True
         self._azimuth += TURN * right
         quarter = 0.5 * math.pi
@@ -152,7 +152,7 @@ class OrbitCamera:
         self._factor = min(NEAREST, max(MOST_DISTANT, self._factor * STEP**steps))
 
     def pan(self, columns: float, rows: float) -> None:
-        """Move the view by some cells to the right and down."""
+        """Move the view by a number of cells to the right and of cells down."""
         right, up = self._shift
         self._shift = right + 2.0 * columns * self._scale, up - 4.0 * rows * self._scale
 
@@ -200,7 +200,12 @@ class OrbitCamera:
         return Viewpoint(axes, middle - right * axes[0] - up * axes[1], self._scale)
 
     def _aim(self, scale: Callable[[], float], *, is_flat: bool) -> None:
-        """Look from above at a flat scene; else from where `scale` is smallest."""
+        """Look from above at a flat scene, at other scenes from the direction of the best scale.
+
+        Args:
+            scale: Function that returns the scale in metres per dot for the present direction.
+            is_flat: Whether the scene is flat.
+        """
         self.look_from("top" if is_flat else "orbit")
         self._is_chosen = False
         if is_flat:
@@ -250,7 +255,7 @@ def axis_length(view: Viewpoint, rows: int, frames: int) -> float:
 
 
 def is_tall(frames: Sequence[SpaceFrame]) -> bool:
-    """Return whether frames differ much in height, which a view from above cannot show."""
+    """Whether frames differ more in height than in x and y, which a view from above hides."""
     if len(frames) < 2:
         return False
     across, along, up = (

@@ -60,12 +60,12 @@ _RAMPS: Final = {True: " .:=+*#%@", False: "  ░░▒▒▓▓██"}
 
 
 class DepthBuffer(NamedTuple):
-    """Nearest surface at each point of a picture, rows from the top.
+    """Nearest surface at each point of a picture; the first row is at the top.
 
     Attributes:
-        owners: Index of the triangle at each point; -1 for none. Shape (height, width).
-        depths: Depth of the surface at each point, larger if nearer to the viewer, in widths
-            of a point; minus infinity without a surface.
+        owners: Index of the triangle at each point, shape (height, width); -1 without a surface.
+        depths: Depth of the surface at each point in widths of a point, shape (height, width). A
+            larger depth is nearer to the viewer; minus infinity without a surface.
     """
 
     owners: Indices
@@ -94,10 +94,10 @@ class DrawnSpace:
         image: Red, green and blue from 0 to 255 of the solids at every dot.
         depth: Nearest triangle at every dot, and its depth.
         layers: Lines in the order in which they are drawn.
-        edges: Mask of the dots where a part of a solid ends in front of another part; if drawn
-            plain, also of the dots where it ends in front of nothing.
-        names: For each label, the most important first: the labelled frame, the text, the number of
-            frames at this position, and the column and row in dots from the upper left corner.
+        edges: Mask of the dots at edges of a solid's part in front of another part. In a plain
+            picture, also of the dots at outer edges of solids.
+        names: Labels, the most important first: the frame, the text, the number of frames at this
+            position, and the column and row in dots from the upper left corner.
         grid: Metres between two lines of the grid.
     """
 
@@ -189,9 +189,9 @@ def drawn(
         rows: Height in cells of four dots.
         palette: Colours of the screen.
         tinted: Whether the solid under the cursor takes the colour of the cursor.
-        plain: Whether to draw for a terminal of few colours: the ground is a dot at each crossing
-            of its grid, and on a robot only the frame under the cursor has axes and a line.
-            In a small picture of a robot of many frames, this holds with colours, too.
+        plain: Whether to draw for a terminal of few colours. The ground is then a dot at each
+            crossing of its grid. On a robot, only the frame under the cursor has axes and a line
+            to its parent; this also applies to a small picture of a robot with many frames.
     """
     width, height = 2 * columns, 4 * rows
     poses = {one.name: one.pose for one in picture.frames}
@@ -260,7 +260,12 @@ def _shades(corners: Floats, triangles: Indices, owners: Indices) -> Floats:
 
 
 def _edges(whose: Indices, depths: Floats) -> npt.NDArray[np.bool_]:
-    """Return a mask of the outlines: points nearer than a neighbour on another part of a solid."""
+    """Return a mask of the inner outlines: points in front of a neighbour on another part.
+
+    Args:
+        whose: Index of the part at each point; -1 without a solid.
+        depths: Depth of each point.
+    """
     edge = np.zeros(whose.shape, bool)
     with np.errstate(invalid="ignore"):
         for here, there in (
@@ -370,7 +375,17 @@ def _layers(
 def _ground(
     picture: SpacePicture, view: Viewpoint, reach: float, *, sparse: bool
 ) -> tuple[npt.NDArray[np.float64], float]:
-    """Return the lines of the ground grid, or its crossings, shape (n, 2, 3), and its step."""
+    """Return the lines of the ground grid and the grid's step.
+
+    Args:
+        picture: Data of the picture.
+        view: Direction, centre and scale of the view.
+        reach: Width or height of the picture, metres.
+        sparse: Whether to return only the crossings of the grid, as lines of length 0.
+
+    Returns:
+        Ends of the lines, metres, shape (n, 2, 3), and the step, metres.
+    """
     step = view.grid
     places = np.array([one.pose.translation for one in picture.frames]).reshape(-1, 3)
     places = places if len(places) else np.zeros((1, 3))
@@ -594,14 +609,17 @@ class SpaceCanvas:
 
 
 def _solid(drawing: DrawnSpace, columns: int, rows: int) -> npt.NDArray[np.bool_]:
-    """Return the cells that have a part of a solid."""
+    """Return a mask of the cells that show a part of a solid, shape (rows, columns)."""
     points = (drawing.depth.owners >= 0).reshape(rows, 4, columns, 2)
     cells: npt.NDArray[np.bool_] = np.logical_or.reduce(points, (1, 3))
     return cells
 
 
 def _leader(placed: PlacedLabel) -> tuple[tuple[int, int], tuple[int, int]]:
-    """Return the line from the letter of a label nearest to its frame to that frame, in dots."""
+    """Return both ends, in dots, of the line from a label to its frame.
+
+    The line begins at the letter nearest to the frame.
+    """
     label = placed.label
     last = placed.column + cell_len(label.text) - 1
     column = min(max(label.column, placed.column), last)
@@ -609,7 +627,7 @@ def _leader(placed: PlacedLabel) -> tuple[tuple[int, int], tuple[int, int]]:
 
 
 def _few_shades(colors: npt.NDArray[np.floating]) -> Indices:
-    """Pack colours in one number each, rounded to few shades so that styles can be cached."""
+    """Pack each colour in one number; colours are rounded to few shades, to cache their styles."""
     red, green, blue = np.moveaxis(np.clip(colors, 0, 255).astype(np.int64) & 0xF8, -1, 0)
     shades: Indices = (red << 16) + (green << 8) + blue
     return shades

@@ -49,7 +49,7 @@ def sparkline(values: Iterable[float | None], width: int, *, ascii_only: bool = 
 
 
 def _scaled(values: Sequence[float | None], width: int, factor: float, ascii_only: bool) -> str:
-    """Draw values in `width` cells, with the maximum times a factor at the right."""
+    """Draw values in `width` cells, followed by the maximum of the values times `factor`."""
     curve = sparkline(values, width - NUMBER, ascii_only=ascii_only)
     highest = max((one for one in values if one is not None), default=0.0)
     return curve and f"{curve}{three_digits(factor * highest):>{NUMBER}}"
@@ -64,7 +64,7 @@ class TrafficLook(NamedTuple):
 
 
 class TrafficHistory:
-    """Rate and delay of every frame that is published repeatedly, at the last calls of `look`."""
+    """Rates and delays of every moving frame at the last calls of the method `look`."""
 
     def __init__(self) -> None:
         self._counts: dict[str, deque[tuple[Stamp, int]]] = {}
@@ -76,8 +76,8 @@ class TrafficHistory:
         Args:
             now: Current time of the clock in nanoseconds.
             traffic: Statistics of the received messages.
-            over: Number of the last calls over which messages are counted for a rate. Over a single
-                call, the rate would jump with each message.
+            over: Number of calls over which messages are counted for a rate. A smaller number gives
+                a rate that jumps with each message.
         """
         for name, link in traffic.links.items():
             if link.is_static:
@@ -103,7 +103,8 @@ class TrafficHistory:
 
         Args:
             frames: The frame of each row.
-            room: Free cells beside the table; if there is room for one column, it shows the rates.
+            room: Free cells beside the table; if there is room for one column only, the rates are
+                shown.
             ascii_only: Whether to draw with ASCII characters only.
         """
         count = 2 if room >= 2 * (LEAST_CELLS + GAP) else 1

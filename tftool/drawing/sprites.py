@@ -64,7 +64,7 @@ def body(
         per_metre: Rows per metre; columns per metre are twice as many.
 
     Yields:
-        (column, row, cell), also outside the screen; the caller clips.
+        (column, row, cell), also for cells outside the screen, which the caller must clip.
     """
     shades = {
         _HEAD: color,
@@ -109,9 +109,9 @@ def _quadrants(parts: tuple[int, ...]) -> tuple[str, int, int]:
 def badge(
     x: float, y: float, theta: float, color: Color, per_metre: float, *, blocks: bool = True
 ) -> Iterator[tuple[int, int, Cell]]:
-    """Draw a turtle as an arrow, or, if there are enough rows per metre, on a coloured badge.
+    """Draw a turtle as an arrow, with a coloured background if there are enough rows per metre.
 
-    Arguments and results are those of `body`; without `blocks` the arrow is in ASCII.
+    Arguments and results are those of `body`; without `blocks`, the arrow is an ASCII character.
     """
     column, row = math.floor(x), math.floor(y)
     if not blocks:

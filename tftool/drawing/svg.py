@@ -1,7 +1,7 @@
 """SVG file of a tree picture, and an HTML page with the picture and a table.
 
-Both are self-contained files that follow the viewer's light or dark scheme and load nothing. The
-page has a script that fits, moves and searches the picture; without it, everything is still shown.
+Both files load nothing, and follow the viewer's light or dark scheme. A script in the page fits,
+moves and searches the picture. Without scripts, the page still shows everything.
 """
 
 import math
@@ -269,7 +269,13 @@ def _table_row(info: FrameInfo, names: dict[str, str], marks: Marks) -> str:
 
 
 def _class(place: int, count: int, has_marks: bool) -> str:
-    """Return a column's CSS class: names may be wrapped, numbers are aligned to the right."""
+    """Return the class attribute of a table cell: "frame" for names, "number" for numbers, or none.
+
+    Args:
+        place: Index of the column.
+        count: Number of columns.
+        has_marks: Whether the last column shows the doctor's findings.
+    """
     if place < 2:
         return ' class="frame"'
     return ' class="number"' if 4 <= place < count - has_marks else ""

@@ -23,9 +23,9 @@ class TableColumn:
     Attributes:
         heading: Text above the cells.
         cells: Text and style of the cell in each row.
-        stands_right: Whether to align the cells to the right, as numbers are.
-        caps: Maximum widths, from wide to narrow: a column shrinks before it is dropped.
-        goes: Rank in which columns are dropped from a narrow table; 0 for a column that stays.
+        stands_right: Whether to align the cells to the right, as for numbers.
+        caps: Maximum widths, from wide to narrow, to which the column shrinks before it is dropped.
+        goes: Order in which columns are dropped from a narrow table; 0 for a column that stays.
     """
 
     heading: str
@@ -143,10 +143,7 @@ def fitted(text: str, width: int, *, more: str = "…") -> str:
 
 
 def middle_cut(text: str, width: int, *, more: str = "…") -> str:
-    """Return a text as one line of at most `width` cells by cutting its middle.
-
-    The beginning and the end stay; `more` replaces the middle.
-    """
+    """Return a text as one line of at most `width` cells; `more` replaces an omitted middle."""
     shown = plain(text)
     if cell_len(shown) <= width:
         return shown
@@ -185,13 +182,13 @@ def wrap_words(sentence: str, width: int) -> list[str]:
 
 
 def rest_of_list(below: int, above: int, *, ascii_only: bool) -> str:
-    """Return the numbers of rows below and above the shown part of a list; "" if there are none."""
+    """Return text about the numbers of hidden rows below and above a list; "" for none."""
     up, down = ("^", "v") if ascii_only else ("↑", "↓")
     words = [f"{down} {below} more"] if below else []
     return "   ".join(words + ([f"{up} {above} above"] if above else []))
 
 
 def padded(text: str, width: int, *, more: str = "…") -> str:
-    """Return a text as one line of exactly `width` cells: cut, or padded with spaces."""
+    """Return a text as one line of exactly `width` cells, cut or padded with spaces."""
     shown = fitted(text, width, more=more)
     return shown + " " * (width - cell_len(shown))

@@ -1,4 +1,4 @@
-"""Colours: turtlesim's, a colour for each frame's name, and those of screens and backgrounds.
+"""Colours of turtlesim, of frames by their names, and of screens and backgrounds.
 
 Colours that fade as in rviz are in the page's `screens/browser/page/model.js`.
 """
@@ -37,7 +37,7 @@ _SALT = "371"
 
 
 def blend(start: Color, end: Color, share: float) -> Color:
-    """Mix two colours; `share` 0 gives `start`, 1 gives `end`."""
+    """Mix two colours; a `share` of 0 gives `start`, a `share` of 1 gives `end`."""
     return Color(
         round(start.r + share * (end.r - start.r)),
         round(start.g + share * (end.g - start.g)),
@@ -74,7 +74,7 @@ def ink(color: Color, *, bold: bool = False) -> Style:
 
 
 class Palette(NamedTuple):
-    """Colours of a dark or a light screen, except on the turtles' field."""
+    """Colours of a dark or a light screen; the turtles' field has other colours."""
 
     ground: Color
     panel: Color
@@ -106,7 +106,7 @@ LIGHT = Palette(
 
 
 def is_stale(age: float) -> bool:
-    """Return whether a frame is silent for so long that its age is shown."""
+    """Whether the age of a frame, in seconds, is so high that screens show the age."""
     # With this comparison, an age that is NaN counts as stale.
     return not age <= FRAME_TIMEOUT / 3.0
 
@@ -117,7 +117,7 @@ def age_words(age: float) -> str:
 
 
 def of_age(color: Color, age: float, palette: Palette) -> Color:
-    """Return a frame's colour by its age: its own, amber when silent, red after a long silence.
+    """Return a frame's colour: `color`, amber if the frame is stale, red after a long silence.
 
     Args:
         color: Colour of the frame.
@@ -135,7 +135,7 @@ def readable(color: Color, palette: Palette) -> Color:
 
 
 def prefers_light(environment: Mapping[str, str] = MappingProxyType({})) -> bool:
-    """Return whether the variable COLORFGBG, if a terminal sets it, means a light background."""
+    """Whether the environment variable COLORFGBG names a light background of the terminal."""
     ground = environment.get("COLORFGBG", "").rpartition(";")[2]
     return ground in {"7", "15"}
 

@@ -62,7 +62,7 @@ class TrafficLayout:
         palette: Colours of the screen.
         ascii_only: Whether to draw with ASCII only.
         first: Index of the first row to show.
-        fills: Whether curves are filled; without colours, a filled curve would be a slab.
+        fills: Whether the area below curves is filled; False for a screen without colours.
         names: Width in cells of the column of names.
     """
 
@@ -81,7 +81,7 @@ class TrafficLayout:
 
     @property
     def curve(self) -> int:
-        """Width in cells of the rate curve, equal to the delay curve's; 0 if there is no room."""
+        """Width of the rate curve, and of the delay curve, in cells; 0 if there is no room."""
         left = self.width - self.names - 2 * NUMBER - 2
         return left // 2 if left >= 2 * (GUTTER + 6) else 0
 
@@ -90,7 +90,7 @@ class TrafficLayout:
         return theme.ink(color, bold=bold)
 
     def state(self, late: str) -> Color:
-        """Return the colour of an edge's numbers: amber or red if the edge is late."""
+        """Return the colour of an edge's numbers for `late`, the result of `late_style`."""
         palette = self.palette
         return {"yellow": palette.warning, "red": palette.error}.get(late, palette.text)
 
@@ -98,7 +98,7 @@ class TrafficLayout:
 def curves(
     now: Stamp, links: Sequence[FrameTraffic], history: TrafficHistory, layout: TrafficLayout
 ) -> list[Text]:
-    """Draw each edge's rate and delay over the last minute; all edges get equally many lines.
+    """Draw each edge's rate and delay over the last minute, in equally many lines per edge.
 
     Args:
         now: Current time of the clock in nanoseconds.
@@ -135,7 +135,7 @@ def curves(
 
 
 def senders(now: Stamp, traffic: Traffic, layout: TrafficLayout) -> list[Text]:
-    """Return lines about the publishers: their rates, with bars as wide as the screen, and delays.
+    """Return a line per publisher: the rate as a bar and as a number, and the delays.
 
     Args:
         now: Current time of the clock in nanoseconds.
@@ -253,7 +253,7 @@ def _block(
 
 
 def _words(link: FrameTraffic, layout: TrafficLayout, *, is_late: bool = False) -> list[str]:
-    """Return a frame's name after a sign of its health, its parent, and its publisher."""
+    """Return three texts about an edge: a health sign and the frame, the parent, the publisher."""
     sign = ("!" if is_late else "+") if layout.ascii_only else "●"
     return [
         f"{' ' if link.is_static else sign} {visible(link.frame)}",
@@ -263,7 +263,14 @@ def _words(link: FrameTraffic, layout: TrafficLayout, *, is_late: bool = False) 
 
 
 def _numbers(now: Stamp, link: FrameTraffic, tall: int, digits: int) -> tuple[list[str], list[str]]:
-    """Return the numbers that are written to the left of the rate curve and the delay curve."""
+    """Return the numbers at the left of the rate curve, and those at the left of the delay curve.
+
+    Args:
+        now: Current time of the clock in nanoseconds.
+        link: Edge.
+        tall: Height of the curves in lines.
+        digits: Number of decimals of delays.
+    """
     series: Series = link.series
     if link.is_static:
         return ["static"], []
@@ -322,7 +329,7 @@ def _curve(
 
 
 def _highest(values: list[float]) -> float:
-    """Return the largest value that a curve shows; rare spikes, as at the start, are left out."""
+    """Return the largest value that a curve should show, without rare spikes."""
     if not values:
         return 0.0
     usual = float(np.quantile(values, 0.85))
@@ -336,7 +343,18 @@ def _heights(
     window: Duration,
     count: int,
 ) -> Floats:
-    """Return the value in each of `count` columns of dots; NaN before the first value."""
+    """Return the values of a curve at `count` equidistant times, shape (count,).
+
+    Args:
+        looks: Measurements, whose times are used.
+        values: Value of each measurement; None if unknown.
+        now: Current time of the clock in nanoseconds, the last of the times.
+        window: Time from the first to the last of the times, nanoseconds.
+        count: Number of times, one per column of dots.
+
+    Returns:
+        Interpolated values; NaN before the first measurement.
+    """
     moments = np.array([as_seconds(one.moment - now + window) for one in looks])
     known = np.array([math.nan if one is None else one for one in values])
     at = np.linspace(0.0, as_seconds(window), count)

@@ -74,7 +74,7 @@ def frame_line(link: FrameTraffic, *, as_tf2: bool = False) -> str:
 
 
 def sender_line(name: str, series: Series, *, as_tf2: bool = False) -> str:
-    """Format the line about one broadcaster as tf2_monitor does, which omits a comma."""
+    """Format the line about one broadcaster as tf2_monitor does, even without its second comma."""
     average, maximum = _delays(series, as_tf2)
     rate = series.tf2_rate if as_tf2 else series.rate
     return (
@@ -165,7 +165,7 @@ def _rows(
 
 
 def _within(rows: list[Text], room: int) -> list[Text]:
-    """Return the rows that fit; if some do not, a last line with their number."""
+    """Return the rows that fit into `room` lines; a last line shows the number of omitted rows."""
     if len(rows) <= max(2, room):
         return rows
     kept = max(1, room - 1)
@@ -175,7 +175,14 @@ def _within(rows: list[Text], room: int) -> list[Text]:
 def _measures(
     now: Stamp, series: list[Series], statics: list[bool], ascii_only: bool
 ) -> list[TableColumn]:
-    """Return the columns of rate, delay and time since the last message."""
+    """Return the columns of rate, delay and time since the last message, for a table of edges.
+
+    Args:
+        now: Current time of the clock in nanoseconds.
+        series: Statistics of each row.
+        statics: Whether each row is a static edge.
+        ascii_only: Whether to draw bars in ASCII.
+    """
     digits = delay_digits(one for one, still in zip(series, statics, strict=True) if not still)
     rates = [rate_words(now, one) for one in series]
     heights = [present_rate(now, one) or 0.0 for one in series]
@@ -221,26 +228,26 @@ BAR = 8
 
 
 def bar(rate: float, fastest: float, cells: int = BAR, *, ascii_only: bool) -> str:
-    """Return a bar whose length shows a rate; bars in adjacent lines do not touch."""
+    """Return a bar of at most `cells` cells, whose length is proportional to `rate`."""
     if fastest <= 0.0 or rate <= 0.0:
         return ""
     return ("#" if ascii_only else "▇") * max(1, round(cells * rate / fastest))
 
 
 def silence(now: Stamp, series: Series) -> Duration:
-    """Return the nanoseconds since the last message."""
+    """Return the time since the last message, nanoseconds; 0 before the first message."""
     return 0 if series.last is None else now - series.last
 
 
 def is_silent(now: Stamp, series: Series, is_static: bool) -> bool:
-    """Return whether an edge has been silent for many of its periods."""
+    """Whether a moving edge has been silent for many of its periods."""
     if is_static or series.rate is None:
         return False
     return has_stopped(as_seconds(silence(now, series)), series.rate)
 
 
 def has_stopped(silent: float, rate: float) -> bool:
-    """Return whether a sender of `rate` hertz, silent for `silent` seconds, has stopped."""
+    """Whether a publisher of `rate` hertz, silent for `silent` seconds, has stopped."""
     return rate > 0.0 and silent > max(STOPPED_AFTER, STOPPED_PERIODS / rate)
 
 
@@ -317,7 +324,7 @@ def _number(value: float | None) -> str:
 
 
 def delay_digits(series: Iterable[Series]) -> int:
-    """Return the number of decimals of all delays in milliseconds, means and maxima alike."""
+    """Return the number of decimals with which to show delays in milliseconds."""
     largest = max((abs(one.maximum_delay or 0.0) for one in series), default=0.0)
     return 3 if 0.0 < largest < 0.01 else 1 if largest < 10.0 else 0
 

@@ -1,9 +1,9 @@
 """Tidy layout of a forest, computed with numbers only.
 
-A parent is above the middle of its first and last child, siblings keep a gap, and subtrees are as
-close as their outlines allow (the idea of Reingold and Tilford). Packing from one side makes small
-subtrees lean on one neighbour. So the forest is packed from both sides, and the positions are
-averaged. Both packings keep the gaps, therefore the mean does too, and it is symmetric.
+A parent is above the middle between its first and last child. Siblings keep a gap. Subtrees are as
+close as their outlines allow, after an idea of Reingold and Tilford. Packing from one side would
+make small subtrees lean on one neighbour. So the forest is packed from both sides, and the mean
+positions are used. The mean keeps the gaps, as both packings do, and is symmetric.
 
 Time and memory are linear in the number of items. No function is recursive, so a chain of thousands
 of items is no problem.
@@ -37,7 +37,7 @@ class Spot:
 
 
 def tidy(items: Sequence[Item], roots: Sequence[int], *, gap: float, tree_gap: float) -> list[Spot]:
-    """Compute the positions of a forest's items; the forest's left edge is at 0.
+    """Compute the positions of a forest's items; the left edge of the forest is at 0.
 
     Args:
         items: All items; each is reached from the roots exactly once.
@@ -122,11 +122,11 @@ def _row(
 
 
 class _Outline:
-    """Extent of a subtree on either side, level by level.
+    """Outline of a subtree: positions of the left and the right edge on each level.
 
-    The lists begin at the deepest level: a new top level is appended, and the levels that two
-    outlines share are at the ends of both. Each list has an offset, so that moving a subtree
-    changes one number.
+    The lists begin at the deepest level. So a new top level is appended, and the common levels of
+    two outlines are at the ends of their lists. Each list has an offset, and moving a subtree only
+    changes this offset.
     """
 
     __slots__ = ("left", "left_shift", "right", "right_shift")
@@ -148,12 +148,12 @@ class _Outline:
         return max(self.right) + self.right_shift
 
     def crown(self, half: float, levels: int) -> None:
-        """Add an item of half-breadth `half` on top, as high as `levels` levels."""
+        """Add an item on top, with half its breadth (`half`) and the number of its levels."""
         self.left.extend([-half - self.left_shift] * levels)
         self.right.extend([half - self.right_shift] * levels)
 
     def room_for(self, other: "_Outline", gap: float) -> float:
-        """Return the nearest position at which `other` keeps the gap on every common level."""
+        """Return the smallest offset to the right at which `other` keeps the gap on every level."""
         common = min(len(self.right), len(other.left))
         if not common:
             return 0.0

@@ -24,7 +24,7 @@ class Drawing:
     Attributes:
         content: Text, or bytes for PDF and PNG.
         left_out: Number of frames that are not in the picture.
-        note: Sentence about what was left out or shortened; empty if the picture is complete.
+        note: Sentence about omitted or shortened content; empty if the picture is complete.
     """
 
     content: str | bytes
@@ -41,7 +41,7 @@ def draw(snapshot: Snapshot, form: str, marks: Marks = NO_MARKS) -> Drawing:
         marks: Ids of the doctor's findings about each frame.
 
     Raises:
-        KeyError: If there is no such format.
+        KeyError: If `form` is not the name of a format.
     """
     return FORMATS[form](snapshot, marks)
 
