@@ -1,4 +1,4 @@
-"""Copy of the samples of a buffer up to a time."""
+"""Function that copies the samples of a buffer up to a given time."""
 
 from itertools import pairwise
 

@@ -29,7 +29,7 @@ MOST_MOMENTS: Final = 2_000_000
 
 
 class Behaviour(StrEnum):
-    """Kind of a frame: static, moving, or moved by a joint of a robot description."""
+    """Kind of a frame: static, moving, or depending on a joint of a robot description."""
 
     static = "static"
     moving = "moving"
@@ -91,7 +91,7 @@ class LinkState:
 
     Attributes:
         parent: Parent in the last sample.
-        kind: Static, moving, or a joint.
+        kind: Static, moving, or depending on a joint.
         count: Number of samples.
         rate: Rate in hertz, from the median period; None if static.
         pose: Pose of the child in the parent, if static; else None.
@@ -139,7 +139,7 @@ class LinkDifference:
         before: State of the frame in A; None if the frame is not in A.
         after: State of the frame in B; None if the frame is not in B.
         displacement: Difference of the poses; None if unknown.
-        note: Reason why the displacement is unknown; may be "".
+        note: Reason why the displacement is unknown; "" if it is known or no reason is needed.
     """
 
     child: str
@@ -169,9 +169,9 @@ class Differences:
         first: Name of A.
         second: Name of B.
         tolerance: Tolerance of the comparison.
-        links: All frames that have a parent: first those of A in order, then those only in B.
+        links: All frames that have a parent: the frames of A in order, then the frames only in B.
         start: First stamp of A, from which printed times are counted, nanoseconds.
-        shift: Nanoseconds to add to a stamp of A to get the same moment in B.
+        shift: Nanoseconds to add to a stamp of A to get the stamp of the same moment in B.
         notes: Sentences about assumptions of the comparison.
     """
 
@@ -204,13 +204,13 @@ def compare(
 
     Static poses are compared directly. Frames that move in both sets are compared at common stamps.
     Without common stamps, the second set is interpolated at the stamps of the first set. If one set
-    has stamps since 1970 and the other has simulation times, each counts from its own start.
+    has stamps since 1970 and the other has simulation times, both sets count from their own start.
 
     Args:
         first: The first set of frames, called A in the result.
         second: The second set of frames, called B in the result.
         tolerance: Tolerated difference; None for the default.
-        align_starts: Whether times in each set count from its own start in any case.
+        align_starts: Whether times of each set always count from the start of this set.
 
     Raises:
         InputError: If a set has no frames.
@@ -420,11 +420,11 @@ def diff(
 
     Args:
         a: The first set: frames, or the path of a file with frames.
-        b: The second set.
+        b: The second set: frames, or the path of a file with frames.
         mm: Tolerated displacement of a frame, millimetres.
         deg: Tolerated rotation of a frame, degrees.
         rate_percent: Tolerated difference of rates, percent; None to ignore rates.
-        align_starts: Whether times in each set count from its own start.
+        align_starts: Whether times of each set always count from the start of this set.
 
     Returns:
         All frames with their changes. The result is false in a condition if nothing changed.

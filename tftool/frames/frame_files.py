@@ -15,11 +15,11 @@ if TYPE_CHECKING:
 
 
 def beyond_limits(robot: "Robot", given: Mapping[str, float]) -> Iterator[str]:
-    """Yield a sentence about positions beyond the limits of their joints, which are used anyway.
+    """Yield a sentence about each given position beyond the limits of the joint.
 
     Args:
         robot: Robot of the joints.
-        given: Positions by joint; all joints belong to the robot.
+        given: Positions of joints of the robot, radians or metres, by joint name.
     """
     for name, position in given.items():
         joint = robot.joints[name]
@@ -32,7 +32,13 @@ def beyond_limits(robot: "Robot", given: Mapping[str, float]) -> Iterator[str]:
 
 
 def joints_at_rest(robot: "Robot", given: Collection[str], name: str) -> Iterator[str]:
-    """Yield a sentence with the number of movable joints for which no position was given."""
+    """Yield a sentence with the number of movable joints without a given position, if any.
+
+    Args:
+        robot: Robot of the joints.
+        given: Names of the joints with a given position.
+        name: Name of the description for the sentence.
+    """
     at_rest = sum(
         joint.moves and joint.name not in given and robot.leader(joint.name, given) not in given
         for joint in robot.joints.values()

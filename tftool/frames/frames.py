@@ -22,14 +22,14 @@ class Frames:
     """Frames of a recording, a robot description, a launch file, a scenario or a session.
 
     `tftool.open` returns an object of this class. Nothing is pruned: lookups work at every recorded
-    time. At the end of a `with` block the files are closed; data already read stays.
+    time. The files are closed at the end of a `with` block, but data already read stays available.
 
         with tftool.open("run.mcap") as frames:
             frames.buffer.lookup_transform("map", "laser", frames.at(12.5))
 
     Attributes:
         kind: Kind of the source.
-        name: Name of the source: "run.mcap", "turtles".
+        name: Name of the source, such as "run.mcap" or "turtles".
         found: Files that were read; None for a session.
         log: Log of all transforms in order of arrival, for a scenario or a session; else None.
     """
@@ -47,7 +47,7 @@ class Frames:
         found: "Found | None" = None,
         notes: tuple[str, ...] = (),
     ) -> None:
-        """Create the object; a recording provides buffer, span, robot and notes itself.
+        """Create the object; for a recording, its buffer, span, robot and notes are used.
 
         Args:
             kind: Kind of the source.
@@ -88,7 +88,7 @@ class Frames:
 
     @property
     def title(self) -> str:
-        """Kind and name of the source, for a sentence: "recording 'run.mcap'"."""
+        """Kind and name of the source for a sentence, such as "recording 'run.mcap'"."""
         if self.kind == "session":
             return self.name
         return f"{self.kind} '{visible(self.name)}'"
@@ -143,7 +143,7 @@ class Frames:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Return sentences about damage, missing frames and joints without a position."""
+        """Sentences about damage, missing frames and joints without a position."""
         if self._recording is None:
             return self._notes
         from tftool.frames.recording_frames import recording_notes
@@ -156,7 +156,7 @@ class Frames:
         return LATEST if start is None else start + seconds(time)
 
     def moment(self, at: At) -> Stamp:
-        """Return the stamp of a time as given for `--at`.
+        """Return the stamp of a time in the notation of the option `--at`.
 
         Raises:
             UsageError: If the time is before the beginning or after the end.

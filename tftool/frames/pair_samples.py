@@ -1,4 +1,4 @@
-"""Poses of one frame in another at many times, with reasons at times when the lookup fails."""
+"""Poses of one frame in another at many times, with the reasons of failed lookups."""
 
 from dataclasses import dataclass, replace
 from typing import Final, TypeAlias
@@ -28,8 +28,8 @@ class RefusedRun:
     Attributes:
         first: First time without a pose, nanoseconds.
         last: Last time without a pose, nanoseconds.
-        count: Number of these times.
-        reason: tf2's error message at the first of these times.
+        count: Number of failed lookups.
+        reason: tf2's error message for the first failed lookup.
     """
 
     first: Stamp
@@ -43,10 +43,10 @@ class Trajectory:
     """Poses of one frame in another over time.
 
     Attributes:
-        path: One row for each time, NaN if the lookup fails. The signs of the quaternions are
-            continuous.
+        path: One pose for each time; NaN if the lookup failed. The signs of the quaternions do not
+            jump.
         refusals: Runs of failed lookups, in the order of time.
-        moments: Description of the times: "at the stamps of 'odom'".
+        moments: Description of the times, such as "at the stamps of 'odom'".
     """
 
     path: TransformArray
@@ -55,21 +55,21 @@ class Trajectory:
 
     @property
     def target(self) -> str:
-        """Return the frame in which the poses are expressed."""
+        """Name of the frame in which the poses are expressed."""
         return self.path.frame_id
 
     @property
     def source(self) -> str:
-        """Return the frame whose poses are given."""
+        """Name of the frame whose poses are given."""
         return self.path.child_frame_id
 
     @property
     def refused(self) -> int:
-        """Return the number of stamps at which no pose could be looked up."""
+        """Number of times at which the lookup failed."""
         return len(self.path) - int(np.count_nonzero(self.path.valid))
 
     def answered(self) -> TransformArray:
-        """Return only the rows with a pose."""
+        """Return the rows of `path` with a pose, without the failed lookups."""
         return self.path if self.path.valid.all() else self.path[self.path.valid]
 
 
@@ -149,7 +149,9 @@ def trajectory_of(path: TransformArray) -> Trajectory:
 
 
 def links_between(buffer: Buffer, target: str, source: str) -> list[str]:
-    """Return the child frames on the path between two frames, by their newest parents.
+    """Return the child frame of each edge on the path between two frames.
+
+    A frame with several parents has the newest parent.
 
     Raises:
         TransformException: If a name is unknown, or the frames are in different trees.
@@ -210,7 +212,7 @@ def continuous(rotations: batch.Floats, valid: npt.NDArray[np.bool_] | None = No
 
 
 def evenly(start: Stamp, end: Stamp, period: Duration) -> Stamps:
-    """Return evenly spaced times from `start` to `end`, above 0, because 0 means "latest".
+    """Return evenly spaced times from `start` to `end` without 0, the time that means "latest".
 
     Raises:
         UsageError: If there are more than `MOST_MOMENTS`.
@@ -275,7 +277,7 @@ def _refusals(buffer: Buffer, path: TransformArray) -> tuple[RefusedRun, ...]:
 
 
 def _runs(flags: npt.NDArray[np.bool_]) -> list[tuple[int, int]]:
-    """Return the first index, and the index after the last, of each run of true flags."""
+    """Return (first index, last index + 1) of each run of true flags."""
     edges = np.diff(np.concatenate(([0], flags.astype(np.int8), [0])))
     firsts, ends = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1)
     return list(zip(firsts.tolist(), ends.tolist(), strict=True))

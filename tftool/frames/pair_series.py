@@ -38,7 +38,7 @@ class PlotCurve:
     """One curve over time in a panel of a plot.
 
     Attributes:
-        label: Label of the curve: "x", or for several pairs of frames "laser in map".
+        label: Label of the curve: "x", or "laser in map" in a plot of several pairs of frames.
         place: Index of the pair of frames, from 0.
         times: Times in seconds, shape (n,).
         values: Values in the panel's unit, shape (n,); NaN in gaps.
@@ -59,8 +59,8 @@ class PlotPanel:
     """Curves of a plot with a common axis.
 
     Attributes:
-        title: Title of the panel: "position".
-        unit: Unit of the values: "m", "°", "m/s", "°/s".
+        title: Title of the panel, such as "position".
+        unit: Unit of the values: "m", "°", "m/s" or "°/s".
         curves: The curves, in order.
     """
 
@@ -121,7 +121,7 @@ QUANTITIES: Final = tuple(name for _, names, _ in _GROUPS.values() for name in n
 
 
 def chosen(words: Sequence[str]) -> tuple[str, ...]:
-    """Return the quantities that words name; the title of a panel means all quantities in it.
+    """Return the quantities that `words` name; the title of a panel selects all its quantities.
 
     Raises:
         UsageError: If a word is neither a quantity nor a panel.
@@ -146,7 +146,7 @@ def panels(
 
     Args:
         found: Trajectories of the pairs.
-        start: Stamp that is 0 on the time axis.
+        start: Stamp that is 0 on the time axis, nanoseconds.
         quantities: Quantities to draw, some of `QUANTITIES`.
     """
     several = len(found) > 1
@@ -172,13 +172,18 @@ def panels(
 
 
 def shades(found: Sequence[Trajectory], start: Stamp) -> list[RefusedSpan]:
-    """Return the spans in which lookups of any pair fail, in order of time."""
+    """Return the time spans in which lookups of any pair fail, in order of time.
+
+    Args:
+        found: Trajectories of the pairs.
+        start: Stamp that is 0 on the time axis, nanoseconds.
+    """
     spans = [_shade(run, start) for one in found for run in one.refusals]
     return sorted(spans, key=lambda span: span.first)
 
 
 def reasons(spans: Sequence[RefusedSpan]) -> list[str]:
-    """Return a sentence with the reason of each of the first spans, and a count of the rest."""
+    """Return a sentence with the reason for each of the first spans, and a count of the others."""
     told = []
     for one in spans[:MOST_TOLD]:
         when = f"from {axis_number(one.first)} s to {axis_number(one.last)} s"
@@ -232,7 +237,7 @@ def tick_labels(ticks: Sequence[float]) -> list[str]:
 
 
 def path_curves(found: Sequence[Trajectory]) -> list[tuple[str, Floats, Floats]]:
-    """Return label, x and y of the path of each pair, for a plot from above; NaN in gaps."""
+    """Return (label, x, y) of each pair's path, metres, for a plot from above; NaN in gaps."""
     curves = []
     for one in found:
         times, columns, broken = _columns(one, 0, _position)
@@ -243,7 +248,7 @@ def path_curves(found: Sequence[Trajectory]) -> list[tuple[str, Floats, Floats]]
 
 
 def thinned(times: Floats, values: Floats, most: int) -> tuple[Floats, Floats]:
-    """Return a curve with fewer points: the minimum and the maximum of each part of the curve.
+    """Thin out a curve to the minimum and the maximum of each part of the curve.
 
     Args:
         times: Times of the points, shape (n,).
@@ -283,7 +288,7 @@ def _columns(
 
 
 def _jumps(angles: Floats) -> "np.ndarray":
-    """Return the indices where an angle wraps around at half a turn."""
+    """Return the indices at which an angle wraps around from half a turn to minus half a turn."""
     with np.errstate(invalid="ignore"):
         found: np.ndarray = np.abs(np.diff(angles)) > 180.0
     return found

@@ -10,7 +10,7 @@ from tftool.base.stamps import NANOSECONDS, Duration, Stamp, as_seconds
 
 @dataclass(frozen=True, slots=True)
 class At:
-    """A time as given for `--at`: seconds since the start of the source, or a stamp.
+    """A time from the command line: seconds since the start of the source, or a stamp.
 
     Attributes:
         nanoseconds: The time, nanoseconds.
@@ -33,14 +33,14 @@ class At:
 def checked_moment(
     at: At, title: str, epoch: Stamp, duration: Duration | None, received: Duration = 0
 ) -> Stamp:
-    """Return the stamp of a time; raise an error if the time is before the start or after the end.
+    """Return the stamp of a time that must be within the source.
 
     Args:
         at: The time.
         title: Name of the recording or session, as the beginning of a sentence.
         epoch: Stamp of the start.
         duration: Time from start to end; None for no end.
-        received: Time from the first to the last message of a recording on any topic.
+        received: Time from the first to the last message of a recording, nanoseconds.
 
     Raises:
         UsageError: If the time is before the start or after the end.
@@ -66,10 +66,10 @@ def checked_moment(
 
 @dataclass(frozen=True, slots=True)
 class DescriptionOptions:
-    """Options for reading a robot description, as a source or by --urdf for a recording.
+    """Options for reading a robot description, given as the source or by the option --urdf.
 
     Attributes:
-        joints: Positions by joint, radians or metres.
+        joints: Joint positions by name, radians or metres.
         arguments: Values of xacro arguments, by name.
         urdf: Path of a description to use with a recording.
     """
@@ -100,7 +100,7 @@ class RecordingOptions:
 
     Attributes:
         no_cache: Whether to ignore the cache of decoded recordings.
-        with_odometry: Whether odometry and poses are used as transforms.
+        with_odometry: Whether to use odometry and pose messages as transforms.
         tf_topics: Topics of transforms to read; empty for all.
     """
 

@@ -1,4 +1,4 @@
-"""Errors of one trajectory relative to another, absolute and relative, after alignment."""
+"""Absolute and relative errors of one trajectory, compared with another after alignment."""
 
 import re
 from dataclasses import dataclass, replace
@@ -39,7 +39,7 @@ class PieceLength:
 
     @classmethod
     def read(cls, text: str) -> "PieceLength":
-        """Parse a length: "1" (one pose), "10m", "5deg".
+        """Parse a length such as "1" (one pose), "10m" or "5deg".
 
         Raises:
             UsageError: If the text is not such a length.
@@ -122,7 +122,7 @@ def trajectory_errors(
     match: Match = "nearest",
     step: PieceLength | None = None,
 ) -> TrajectoryErrors:
-    """Compute the errors of one trajectory, B, relative to another, A.
+    """Compute the errors of trajectory B, the estimate, relative to trajectory A, the reference.
 
     Args:
         reference: Frames of A.
@@ -172,7 +172,12 @@ def trajectory_errors(
 
 
 def _nearest(a: TransformArray, b: TransformArray) -> tuple[TransformArray, TransformArray]:
-    """Return each pose of the shorter trajectory with the nearest in time of the other."""
+    """Match each pose of the shorter trajectory with the pose of the other nearest in time.
+
+    Returns:
+        Poses of `a` and poses of `b`, row by row; pairs that are too far apart in time are left
+        out.
+    """
     if len(a) > len(b):
         second, first = _nearest(b, a)
         return first, second
@@ -186,7 +191,7 @@ def _nearest(a: TransformArray, b: TransformArray) -> tuple[TransformArray, Tran
 
 
 def fitted(a: TransformArray, b: TransformArray, fit: Fit) -> tuple[TransformArray, float]:
-    """Align trajectory `b` with trajectory `a`; row i of both is one match.
+    """Align trajectory `b` with trajectory `a`, whose rows are matched one to one.
 
     Returns:
         The aligned trajectory `b`, and the factor by which it was scaled.
@@ -242,7 +247,10 @@ def _motion(path: TransformArray, begins: "np.ndarray", ends: "np.ndarray") -> T
 
 
 def _pieces(path: TransformArray, step: PieceLength) -> tuple["np.ndarray", "np.ndarray"]:
-    """Return the first and the last index of each part of a trajectory, of the length `step`.
+    """Divide a trajectory into parts of the length `step`.
+
+    Returns:
+        Index of the first pose and index of the last pose of each part.
 
     Raises:
         InputError: If the trajectory is shorter than one step.
@@ -260,7 +268,12 @@ def _pieces(path: TransformArray, step: PieceLength) -> tuple["np.ndarray", "np.
 
 
 def _marks(moved: list[float], size: float) -> list[int]:
-    """Return index 0, and each index at which the path since the last one is `size` long."""
+    """Return the indices that divide a path into parts of the length `size`.
+
+    Args:
+        moved: Distance (or angle) from each pose to the next.
+        size: Smallest length of a part.
+    """
     marks, gone = [0], 0.0
     for place, one in enumerate(moved, 1):
         gone += one

@@ -33,12 +33,12 @@ class TransformLog:
         *,
         is_static: bool,
     ) -> None:
-        """Append the transforms of a message; drop them if the log has `MOST` transforms.
+        """Append the transforms of a message, unless the log already has `MOST` transforms.
 
         Args:
             now: Time of arrival, nanoseconds.
             transforms: Transforms of the message.
-            authority: Sender of the message.
+            authority: Name of the sender of the message.
             is_static: Whether the message came on the static topic.
         """
         if self._count >= MOST:

@@ -1,1 +1,1 @@
-"""Calibration of the mount of one moving frame on another, and of clock offsets, from motions."""
+"""Calibration from recorded motions: the mount of one moving frame on another, clock offsets."""

@@ -29,11 +29,11 @@ class CalibrationRefused(TftoolError):
     """Error for motions from which no result can be computed.
 
     Attributes:
-        next_motion: Description of a motion to record instead; "" if no other motion would help.
+        next_motion: Motion to record instead, as an instruction; "" if no motion would help.
     """
 
     def __init__(self, text: str, next_motion: str = "") -> None:
-        """Create the error from its reason and the motion to record instead."""
+        """Create the error from its text and from the motion to record instead."""
         super().__init__(text)
         self.next_motion = next_motion
 
@@ -54,7 +54,7 @@ class BodyMotion:
     """Poses of one moving frame in order of time.
 
     Attributes:
-        name: Name of the chain: "base_link in odom".
+        name: Name of the motion, such as "base_link in odom".
         start: Stamp of time 0, nanoseconds.
         times: Time of each pose, seconds, shape (n,), strictly increasing.
         positions: Metres, shape (n, 3).
@@ -69,7 +69,7 @@ class BodyMotion:
 
     @classmethod
     def of(cls, path: TransformArray) -> "BodyMotion":
-        """Return the poses of `path` sorted by stamp, without NaN, outliers and repeated stamps.
+        """Return the motion of `path`, sorted by stamp, without NaN, outliers and repeated stamps.
 
         Raises:
             CalibrationRefused: If fewer than twenty poses remain.
@@ -102,7 +102,7 @@ class BodyMotion:
         return float(np.median(np.diff(self.times)))
 
     def inverted(self) -> "BodyMotion":
-        """Return the motion of the fixed frame relative to the moving frame."""
+        """Return the inverse motion: the poses of the fixed frame in the moving frame."""
         back = batch.conjugate(self.rotations)
         target, _, source = self.name.partition(" in ")
         places = -batch.rotate(back, self.positions)
@@ -135,12 +135,16 @@ class BodyMotion:
         return positions, batch.unit(turns), valid
 
     def velocities(self, times: Floats) -> tuple[Floats, Floats]:
-        """Return velocities along the fixed axes, and angular velocities about the moving axes.
+        """Return velocities and angular velocities at some times.
 
-        Velocities are differences of poses over at least a tenth of a second, to reduce the noise.
+        They are differences of poses over at least a tenth of a second, to reduce the noise.
+
+        Args:
+            times: Times on the motion's time axis, seconds, shape (m,).
 
         Returns:
-            Metres per second and radians per second, each of shape (m, 3).
+            Velocities along the axes of the fixed frame, metres per second, and angular velocities
+            about the axes of the moving frame, radians per second, each of shape (m, 3).
         """
         half = max(0.05, self.period)
         before, first, _ = self.at(times - half)
@@ -166,11 +170,10 @@ _DENSE: Final = 200
 
 
 def _steady(positions: Floats, turns: Floats) -> "npt.NDArray[np.intp]":
-    """Return the indices of poses that are no outliers, such as flipped tags.
+    """Return the indices of the poses without outliers, such as a tag that was detected flipped.
 
-    First, poses are dropped whose median distance (or angle) to six neighbours is far above that of
-    the poses around them. Then, poses are dropped that are far from the middle of their remaining
-    neighbours.
+    An outlier has a far larger median distance (or angle) to six neighbours than the poses around.
+    Of the other poses, those far from the middle of their neighbours are outliers too.
     """
     kept = np.arange(len(turns))
     if len(turns) < _DENSE:

@@ -68,7 +68,7 @@ Trio = tuple[float | None, float | None, float | None]
 
 @dataclass(frozen=True, slots=True)
 class Interval:
-    """Half-widths of a pose's 95 % interval; None for directions that the motion does not show.
+    """Half-widths of a pose's 95 % interval; None for directions that the motion cannot determine.
 
     The mount is the pose of the frame moving_b in moving_a. The fixed mount is the pose of fixed_b
     in fixed_a. See `calibrate` for these frames.
@@ -105,15 +105,15 @@ class Calibration:
         offset_interval95: Half-width of the 95 % interval of `clock_offset`, seconds.
         drift_ppm: Change of `clock_offset`, microseconds per second; None for a short recording.
         clock: Correlation from which the offset was measured.
-        halves_differ: Difference between the mounts from the first and the second half of the
-            recording: metres, degrees.
-        unseen: Parts of the mount that the motion does not determine: x y z roll pitch yaw.
+        halves_differ: Distance (metres) and angle (degrees) between the mounts from the first and
+            the second half of the recording.
+        unseen: Undetermined parts of the mount, some of x, y, z, roll, pitch and yaw.
         unseen_direction: Undetermined direction, a unit vector in moving_a, if it is oblique to the
             x, y and z axes; else None.
-        inverted: Whether the poses of A were inverted, and whether those of B were.
+        inverted: Whether the poses of A, and whether the poses of B, were inverted.
         next_motion: The motion to record next; None if no other motion is needed.
-        scale: Factor of A's translations, and the half-width of its 95 % interval; None if no scale
-            was requested.
+        scale: Factor of A's translations, and half-width of the factor's 95 % interval; None if no
+            scale was requested.
         notes: Sentences about the inputs.
     """
 
@@ -165,7 +165,7 @@ def calibrate(
         a: Motion A: the poses of a frame moving_a in a frame fixed_a over time, for example of
             base_link in odom; or frames that form a single chain.
         b: Motion B: the poses of moving_b in fixed_b, for example of camera in world; or frames
-            that form a single chain. Its clock may differ from that of A.
+            that form a single chain. B may be on another clock than A.
         planar: Whether to estimate only x, y and yaw of the mount.
         scale: Whether to estimate a scale of A's translations, for wheel odometry.
         published: The published mount, used for parts that the motion does not determine.
@@ -258,7 +258,12 @@ class _Solver:
         )
 
     def _start(self, problem: Problem) -> tuple[Fit, MotionPairs, _Shown, float]:
-        """Return a first fit, the pairs of poses, the determined directions, and the error."""
+        """Compute a first estimate of the mount.
+
+        Returns:
+            The estimate, the pairs of poses used, the parts of the mount that the motion
+            determines, and the median error, metres.
+        """
         pairs = pairs_of(problem, 0.0)
         if pairs.largest < LEAST_TURN or len(pairs.turns_a) < 20:
             raise CalibrationRefused(
@@ -304,8 +309,11 @@ class _Solver:
     def _best(self, problem: Problem, start: Fit, shown: _Shown) -> tuple[Fit, float]:
         """Return the fit with the smallest confidence intervals.
 
-        Each fit uses another length of time segments. Lengths at which the residuals grow are left
-        out: odometry drifts over them, which bootstrapped confidence intervals do not show.
+        Each fit divides the time into segments of another length. Segments in which the residuals
+        grow are too long: odometry drifts in them, and bootstrapped intervals hide such a drift.
+
+        Returns:
+            The fit, and the length of its segments, seconds.
         """
         whole = float(problem.times[-1] - problem.times[0])
         lengths = [*(one for one in _SEGMENTS if one * 4.0 <= whole), math.inf]
@@ -326,7 +334,7 @@ class _Solver:
         return best[1], best[2]
 
     def _judged(self, pairs: MotionPairs, fit: Fit, shown: _Shown) -> _Shown:
-        """Return the determined directions, after a check that a second axis is not noise."""
+        """Return `shown`, or the parts that one axis determines if a second axis is noise."""
         if shown.axis is not None:
             return shown
         values, vectors = np.linalg.eigh(pairs.turns_a.T @ pairs.turns_a / len(pairs.turns_a))
@@ -346,7 +354,11 @@ class _Solver:
     def _halves(
         self, problem: Problem, fit: Fit, free: tuple[Floats, ...], length: float
     ) -> tuple[float, float] | None:
-        """Return the difference of the mounts from both halves of the time, metres, degrees."""
+        """Return the difference between the mounts from both halves of the recording.
+
+        Returns:
+            Distance in metres and angle in degrees; None if a half has fewer than ten poses.
+        """
         middle = float(np.median(problem.times))
         found = []
         for begin, end in ((-math.inf, middle), (middle, math.inf)):
@@ -412,10 +424,10 @@ WIDTH: Final = 2.1
 
 
 def _doubt(sizes: Floats, shown: _Shown, halves: tuple[float, float] | None) -> tuple[float, float]:
-    """Return the factors that widen the intervals of rotation and translation.
+    """Return two factors, at least 1, that widen the intervals of rotation and translation.
 
-    If the halves of the recording differ by more than the interval, there is an error that a
-    bootstrap cannot detect, such as a wrong scale or a drift.
+    If the mounts from both halves of the recording differ by more than the interval, a bootstrap
+    missed an error, such as a wrong scale or a drift.
     """
     if halves is None:
         return 1.0, 1.0
@@ -491,7 +503,7 @@ def _tilted(shown: _Shown) -> tuple[float, float, float] | None:
 
 
 def _interval(sizes: Floats, shown: _Shown) -> Interval:
-    """Return the interval of the mount, from half-widths along the determined directions."""
+    """Return the interval of the mount from half-widths along the determined directions."""
     free = np.array(shown.free)[:, :6]
     widths = np.sqrt(((free * sizes[:, None]) ** 2).sum(axis=0))
     known = [name not in shown.unseen for name in (*ANGLES, *AXES)]
@@ -518,7 +530,12 @@ def _fixed_interval(sizes: Floats, shown: _Shown, problem: Problem, fit: Fit) ->
 
 
 def _trio(values: Floats, hidden: Floats) -> Trio:
-    """Return half-widths along x, y and z; None for an axis that is mostly undetermined."""
+    """Return half-widths along x, y and z; None for an axis that is mostly undetermined.
+
+    Args:
+        values: Half-widths, shape (3,).
+        hidden: Undetermined fraction of each axis, shape (3,).
+    """
     x, y, z = (
         None if part > HIDDEN else float(value) for value, part in zip(values, hidden, strict=True)
     )

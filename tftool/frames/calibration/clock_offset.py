@@ -1,9 +1,9 @@
 """Offset between the clocks of two motions of one rigid body, from rotations alone.
 
-The angle by which a rigid body turns in a time window is the same for all its points and in all
-fixed frames. Both motions give this angle over time, each on its own clock. The offset is the shift
-at which the two curves correlate best. The angular speed between neighbouring samples would be too
-noisy.
+In a time window, a rigid body turns by an angle that is the same for all points of the body and in
+all fixed frames. Both motions give this angle over time, each on its own clock. The offset is the
+time shift at which the two curves correlate best. Longer windows than the sample period reduce the
+noise.
 """
 
 from dataclasses import dataclass
@@ -133,7 +133,14 @@ def offset_of(a: BodyMotion, b: BodyMotion) -> ClockOffset:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Correlation:
-    """Correlation of two curves at all time shifts (lags), which are multiples of a step."""
+    """Correlation of two curves, sampled with one step, at all time shifts (lags).
+
+    Attributes:
+        lags: Time shifts in steps, shape (n,).
+        curve: Correlation at each lag; NaN where the overlap is too small, shape (n,).
+        first: Values of the first curve, and a mask that is 0 in gaps.
+        second: Values of the second curve, and a mask that is 0 in gaps.
+    """
 
     lags: Floats
     curve: Floats
@@ -182,7 +189,15 @@ class _Correlation:
 
 
 def _tops(sums: Floats) -> Floats:
-    """Return the position of each peak among nine shifts, from a parabola, shape (n,)."""
+    """Return the top of the parabola through nine correlations around a peak, in steps.
+
+    Args:
+        sums: Sums of 1, x, y, x², y² and xy over two curves at each of the nine lags, shape
+            (n, 9, 6).
+
+    Returns:
+        Positions relative to the middle lag, -4 to 4, shape (n,).
+    """
     count, x, y, xx, yy, xy = np.moveaxis(sums, -1, 0)
     count = np.maximum(count, 1.0)
     spread = (xx - x * x / count) * (yy - y * y / count)
@@ -197,14 +212,31 @@ def _tops(sums: Floats) -> Floats:
 def _overlap(
     f: Floats, has_f: Floats, g: Floats, has_g: Floats, lag: int
 ) -> tuple[Floats, Floats, Floats]:
-    """Return the overlapping parts of two curves at a lag, and a mask; both are 0 in gaps."""
+    """Return the overlapping parts of two curves, and a mask of the overlap, all 0 in gaps.
+
+    Args:
+        f: Values of the first curve.
+        has_f: Mask of the first curve, 0 in gaps.
+        g: Values of the second curve.
+        has_g: Mask of the second curve, 0 in gaps.
+        lag: Shift of the second curve, in steps.
+    """
     low, high = max(0, lag), min(len(f), len(g) + lag)
     both = has_f[low:high] * has_g[low - lag : high - lag]
     return f[low:high] * both, g[low - lag : high - lag] * both, both
 
 
 def _course(motion: BodyMotion, step: float, window: float) -> tuple[Floats, Floats]:
-    """Return the angle turned per window on a grid of times, and a mask that is 0 without data."""
+    """Return the angle turned in a window after each time of a grid, and a mask of these angles.
+
+    Args:
+        motion: The motion.
+        step: Step of the grid, seconds.
+        window: Length of the window, seconds.
+
+    Returns:
+        Angles in radians, and a mask that is 0 without data, each of shape (n,).
+    """
     grid = np.arange(0.0, motion.duration - window, step)
     _, first, knows_first = motion.at(grid)
     _, last, knows_last = motion.at(grid + window)

@@ -36,8 +36,8 @@ class Fit:
         offset: Clock offset d minus its first estimate, at the time `Problem.middle`, seconds.
         drift: Change of the clock offset d per second.
         scale: Factor of the translations of motion A.
-        joins: Rotation of the pose Y between the fixed frames, by time segment, shape (k, 4).
-        places: Translation of the pose Y, by time segment, shape (k, 3).
+        joins: Rotation of the pose Y between the fixed frames, one per time segment, shape (k, 4).
+        places: Translation of the pose Y in metres, one per time segment, shape (k, 3).
         noise: Standard deviation of one residual along one axis: radians, metres.
         cost: Mean robust loss of the residuals; 1 if the residuals are Gaussian.
         blocks: Normal equations of each time block: matrices and right sides.
@@ -85,18 +85,18 @@ class Problem:
 
 
 def matrices(quaternions: Floats) -> Floats:
-    """Return the rotation matrices of quaternions, shape (n, 3, 3)."""
+    """Convert quaternions, shape (n, 4), to rotation matrices, shape (n, 3, 3)."""
     return batch.matrices(np.zeros((len(quaternions), 3)), quaternions)[:, :3, :3]
 
 
 def turned_by(vector: Floats) -> Floats:
-    """Return the quaternions of rotation vectors, shape (..., 4)."""
+    """Convert a rotation vector, or an array of shape (..., 3), to quaternions, shape (..., 4)."""
     half = 0.5 * np.linalg.norm(vector, axis=-1, keepdims=True)
     return batch.unit(np.concatenate([vector * 0.5 * np.sinc(half / np.pi), np.cos(half)], axis=-1))
 
 
 def cross(vectors: Floats) -> Floats:
-    """Return the cross product matrices of vectors, shape (n, 3, 3)."""
+    """Return the matrices whose products are cross products with the vectors, shape (n, 3, 3)."""
     x, y, z = vectors.T
     zero = np.zeros_like(x)
     return np.stack([zero, -z, y, z, zero, -x, -y, x, zero], axis=1).reshape(-1, 3, 3)
@@ -230,13 +230,18 @@ class _Residuals:
         self.jacobian_w = self.jacobian * scaled[:, :, None]
 
     def sums(self, starts: npt.NDArray[np.intp]) -> tuple[Floats, Floats]:
-        """Return the normal equations, summed over the poses from each start to the next."""
+        """Return the sums of the normal equations over the poses from each start to the next."""
         square = np.einsum("nij,nik->njk", self.jacobian_w, self.jacobian_w, optimize=True)
         right = np.einsum("nij,ni->nj", self.jacobian_w, self.errors_w)
         return np.add.reduceat(square, starts), np.add.reduceat(right, starts)
 
     def by_segment(self, basis: Floats) -> tuple[Floats, Floats, Floats, Floats]:
-        """Return the normal equations after elimination of the poses Y, and data to compute Y."""
+        """Eliminate the poses Y from the normal equations of each time segment.
+
+        Returns:
+            Matrices and right sides of the reduced equations along `basis`, and the matrices and
+            vectors from which the poses Y follow.
+        """
         starts = np.flatnonzero(np.diff(self.segments, prepend=-1))
         square, right = self.sums(starts)
         inner = square[:, JOIN, JOIN] + 1e-9 * np.eye(6)
@@ -389,12 +394,16 @@ def _aligned(target: Floats, source: Floats) -> Floats:
 
 
 def _weights(off: Floats) -> Floats:
-    """Return a weight for each error: near 1 for a small error, 0.5 for twice the median error."""
+    """Return robust weights of errors: near 1 for a small error, 0.5 for twice the median error."""
     return np.asarray(1.0 / (1.0 + (off / max(2.0 * np.median(off), 1e-9)) ** 2))
 
 
 def _solved(design: Floats, right: Floats, weights: Floats, ridge: float) -> tuple[Floats, Floats]:
-    """Solve linear equations, three rows per pair, robustly; return the solution and errors."""
+    """Solve linear equations robustly, with three rows per pair.
+
+    Returns:
+        The solution, and the error of each pair.
+    """
     for _ in range(10):
         square = np.einsum("n,nij,nik->jk", weights, design, design)
         square += ridge * max(np.trace(square), 1e-9) * np.eye(len(square))
@@ -423,8 +432,8 @@ def lever(pairs: MotionPairs, turn: Floats, weights: Floats) -> tuple[Floats, fl
 def about_one_axis(pairs: MotionPairs, axis: Floats, start: Floats) -> tuple[Floats, Floats, float]:
     """Compute the mount from motions about one axis, except for its translation along the axis.
 
-    The rotation vectors do not determine the mount's rotation about the axis. The translations do:
-    they depend linearly on its cosine and sine.
+    The rotation vectors do not determine the mount's rotation about the axis. The translations
+    determine this angle, because they depend linearly on its cosine and sine.
 
     Args:
         pairs: Motions that turn about one axis.

@@ -47,12 +47,12 @@ class Exported:
 
     @property
     def refused(self) -> int:
-        """Return the number of times without a pose, which were left out."""
+        """Number of times that were left out because the lookup failed."""
         return sum(one.refused for one in self.trajectories)
 
 
 def buffer_of(frames: Framed) -> Buffer:
-    """Return the buffer of a recording, a robot or opened frames; return a buffer unchanged."""
+    """Return the buffer of a recording, a robot or opened frames, or the given buffer itself."""
     if isinstance(frames, Buffer):
         return frames
     if not hasattr(frames, "buffer"):
@@ -65,7 +65,7 @@ P = ParamSpec("P")
 
 
 def _named_path(function: "Callable[P, Exported]") -> "Callable[P, Exported]":
-    """Decorate `export` so that arguments in the order of an earlier version raise a TypeError."""
+    """Decorate `export` to raise a TypeError for arguments in the order of an earlier version."""
 
     @wraps(function)
     def checked(*given: P.args, **named: P.kwargs) -> Exported:
@@ -116,7 +116,7 @@ def export(
         path: File to write. Its suffix selects the format: .tum .kitti .csv .npz .parquet for
             pairs, .urdf .launch.py .launch.xml .launch.yaml .sh .mcap for links.
         pairs: Several pairs (target, source), for CSV, npz and Parquet.
-        format: Name of a `Format` to write instead of that of the suffix, for example "euroc".
+        format: Name of a `Format`, such as "euroc", which replaces the format of the suffix.
         start: Time before which nothing is written, nanoseconds.
         end: Time after which nothing is written, nanoseconds.
         period: Time between lookups, nanoseconds; None for the stamps of the fastest frame.
@@ -134,7 +134,7 @@ def export(
     Raises:
         InputError: If the file cannot be written.
         TransformException: If a frame is unknown, or a pair has no pose at any time.
-        TypeError: If there are no frames to write, or `path` is not named.
+        TypeError: If `frames` is not a source of frames, or if `path` is not a keyword argument.
         UsageError: If the options contradict each other, or an extra is missing.
     """
     place = Path(path)
@@ -183,7 +183,7 @@ def write_trajectories(
     force: bool = False,
     progress: Progress | None = None,
 ) -> Exported:
-    """Write trajectories, which are poses that were already looked up.
+    """Write trajectories, whose poses were looked up before, to a file.
 
     Raises:
         InputError: If the file cannot be written.
@@ -210,7 +210,10 @@ def write_links(
     force: bool = False,
     progress: Progress | None = None,
 ) -> Exported:
-    """Write the pose of every frame in its parent: all frames to MCAP, else only static frames.
+    """Write the links (poses of frames in their parents) to a file.
+
+    MCAP contains all frames. A URDF contains static frames, and moving frames on request. The other
+    formats contain static frames only.
 
     Raises:
         InputError: If the file cannot be written.
@@ -256,7 +259,7 @@ def _named(name: str) -> Format:
 
 
 def refuse_input(frames: object, path: Path) -> None:
-    """Raise an error if the path is the file or folder that the frames were read from.
+    """Check that an output path is not the file or folder from which the frames were read.
 
     Raises:
         UsageError: If the path is the input.

@@ -21,7 +21,7 @@ class Style:
     """Options of an export; each format uses those that apply to it.
 
     Attributes:
-        decimals: Number of decimals in texts; 17 for the shortest text that is exact.
+        decimals: Number of decimals in text files; 17 for the shortest exact text.
         rpy: Whether roll, pitch and yaw are added to CSV and Parquet.
         foxglove: Whether MCAP contains foxglove.FrameTransforms instead of tf2_msgs/TFMessage.
         with_moving: Whether moving links are written to a URDF, as floating joints.
@@ -82,7 +82,7 @@ SUFFIXES: Final = {suffix: form for form in Format for suffix in form.suffixes}
 
 
 def suffixes_of(*, trajectories: bool) -> str:
-    """Return a text with the first suffix of each format for trajectories, or for links."""
+    """Return the first suffixes of all formats for trajectories, or for links, as a text."""
     forms = [form for form in Format if form.suffixes and form.is_trajectory == trajectories]
     return " ".join(form.suffixes[0] for form in forms)
 

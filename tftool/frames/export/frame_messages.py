@@ -46,7 +46,7 @@ def _frame_transform(sample: TransformStamped) -> bytes:
 
 @cache
 def frame_transforms_definition() -> bytes:
-    """Return the bytes of foxglove.FrameTransforms' FileDescriptorSet, dependencies first."""
+    """Return the protobuf schema of foxglove.FrameTransforms as bytes of a FileDescriptorSet."""
     time = ".google.protobuf."
     own = ".foxglove."
     doubles = [(name, _DOUBLE, "", _ONE) for name in "xyzw"]
@@ -198,7 +198,7 @@ def _held(buffer: Buffer) -> "tuple[list[TransformStamped], Moving, int]":
 def _messages(
     statics: list[TransformStamped], moving: "Moving"
 ) -> Iterator[tuple[Stamp, list[TransformStamped]]]:
-    """Yield time and transforms of each message: first all static ones, then by stamp."""
+    """Yield (time, transforms) of each message, first static ones, then moving ones by stamp."""
     stamps = np.concatenate([one[1] for one in moving]) if moving else np.array([], np.int64)
     order = np.argsort(stamps, kind="stable")
     start = int(stamps[order[0]]) if len(order) else NANOSECONDS

@@ -23,7 +23,14 @@ _PLAIN_WORD = re.compile(r"[^\s\"'$\\]+")
 
 @dataclass(frozen=True, slots=True)
 class FixedLink:
-    """One static transform to write: the pose of `child` in `parent`."""
+    """One transform to write as static: the pose of `child` in `parent`.
+
+    Attributes:
+        parent: Name of the parent frame.
+        child: Name of the child frame.
+        pose: Pose of the child in the parent.
+        moves: Whether the child is a moving frame.
+    """
 
     parent: str
     child: str
@@ -34,7 +41,7 @@ class FixedLink:
 def fixed_links(
     buffer: Buffer, *, with_moving: bool = False, time: Stamp = LATEST, root: str | None = None
 ) -> list[FixedLink]:
-    """Return the static transforms of a buffer, in the order in which their frames arrived.
+    """Return the static transforms of a buffer, in the order in which the frames arrived.
 
     Args:
         buffer: Source of the frames.
@@ -69,7 +76,7 @@ def fixed_links(
 
 
 def roots(links: Sequence[FixedLink]) -> list[str]:
-    """Return the root frames: parents that are not a child, in order of appearance."""
+    """Return the root frames (parents that are never a child) in order of appearance."""
     children = {one.child for one in links}
     return list(dict.fromkeys(one.parent for one in links if one.parent not in children))
 
@@ -174,7 +181,7 @@ def launch_yaml(links: Sequence[FixedLink]) -> str:
 
 
 def _listed(words: Sequence[str]) -> list[str]:
-    """Return lines of Python code, each with an option and its value as strings."""
+    """Return lines of Python code for a list of options, each line with an option and its value."""
     texts = [json.dumps(word) for word in words]
     return [f"{name}, {value}" for name, value in zip(texts[::2], texts[1::2], strict=True)]
 
@@ -184,7 +191,11 @@ def _words(one: FixedLink) -> list[str]:
 
 
 def _whole_name(one: FixedLink) -> FixedLink:
-    """Return the transform; raise an error if a command line cannot contain a frame name."""
+    """Return `one` after a check of its frame names.
+
+    Raises:
+        InputError: If a name contains characters that a launch file or script cannot contain.
+    """
     for name in (one.parent, one.child):
         if "\0" in name or _NOT_XML.search(name):
             raise InputError(

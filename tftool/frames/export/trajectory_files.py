@@ -1,7 +1,7 @@
 """Writers of trajectory files (TUM, KITTI, EuRoC, CSV, npz, Parquet), and fast number formatting.
 
-Stamps stay whole nanoseconds, because floats of present times have steps of 238 ns. A file appears
-only when it is complete.
+Stamps stay whole nanoseconds, because floats of present times, in seconds, have steps of 238 ns. A
+file appears under its final name only when complete.
 """
 
 import csv
@@ -54,11 +54,11 @@ _POINT: Final = _table([b".%d" % n for n in range(10)])
 def rows_as_text(
     numbers: Floats, *, stamps: Stamps | None = None, seconds: bool = False, separator: str = ","
 ) -> bytes:
-    """Return the text of a block of rows: one line per row, nine decimals per number.
+    """Format rows of numbers as text: one line per row, nine decimals per number.
 
     Args:
         numbers: Finite numbers below 9e9, shape (n, k).
-        stamps: Stamps for the beginning of rows, nanoseconds, shape (n,); None for no stamps.
+        stamps: Stamps to write at the beginning of rows, nanoseconds, shape (n,); None for none.
         seconds: Whether stamps are written as seconds with nine decimals, not as nanoseconds.
         separator: Character between numbers.
     """
@@ -79,7 +79,7 @@ def rows_as_text(
 
 
 def fits(numbers: Floats) -> bool:
-    """Whether `rows_as_text` can format these numbers, which otherwise need `exact_rows`."""
+    """Whether `rows_as_text` can format these numbers; other numbers need `exact_rows`."""
     # Comparisons with NaN are false, so NaN does not fit.
     return bool((np.abs(numbers) < _LARGEST).all())
 
@@ -92,7 +92,7 @@ def exact_rows(
     seconds: bool = False,
     separator: str = ",",
 ) -> bytes:
-    """Return the text of rows with any number of decimals, more slowly than `rows_as_text`."""
+    """Format rows with any number of decimals, more slowly than `rows_as_text`."""
     lines = []
     for place, row in enumerate(numbers.tolist()):
         words = [_shortest(one) if decimals >= FULL else f"{one:.{decimals}f}" for one in row]
@@ -116,12 +116,17 @@ def _shortest(number: float) -> str:
 
 
 def _whole(values: Stamps) -> Words:
-    """Return the digits of whole numbers, shape (n,), four per 32-bit word, shape (n, w)."""
+    """Format whole numbers, shape (n,), as digits in 32-bit words of four bytes, shape (n, w)."""
     return _digits(values[:, np.newaxis], b"")[:, 0]
 
 
 def _decimals(scaled: npt.NDArray[np.int64], before: bytes) -> Words:
-    """Return the digits of scaled numbers, shape (n, k), four per 32-bit word, shape (n, k·w)."""
+    """Format numbers with nine decimals as digits in 32-bit words, shape (n, k·w).
+
+    Args:
+        scaled: Numbers times 1e9, shape (n, k).
+        before: Bytes to write before each number.
+    """
     count, width = scaled.shape
     size = np.abs(scaled)
     whole = size // _SCALE
@@ -148,7 +153,13 @@ def _decimals(scaled: npt.NDArray[np.int64], before: bytes) -> Words:
 def _digits(
     values: npt.NDArray[np.int64], before: bytes, *, negative: npt.NDArray[np.bool_] | None = None
 ) -> Words:
-    """Return the text of whole numbers, shape (n, k), in 32-bit words: `before`, sign, digits."""
+    """Format whole numbers as text in 32-bit words, shape (n, k, w).
+
+    Args:
+        values: Whole numbers, shape (n, k).
+        before: Bytes to write before each number.
+        negative: Mask of the numbers with a minus sign; None for the numbers below 0.
+    """
     size = np.abs(values)
     signs = _table([before, before + b"-"])
     words = [signs[((values < 0) if negative is None else negative).astype(np.intp)]]
@@ -181,7 +192,9 @@ _BYTES_PER_ROW: Final = 110
 
 @contextmanager
 def whole_file(path: Path, *, force: bool = False) -> Iterator[BinaryIO]:
-    """Open a file for writing; rename it to `path` when complete, remove it after an error.
+    """Open a temporary file for writing, which is renamed to `path` at the end.
+
+    After an error, the temporary file is removed.
 
     Raises:
         UsageError: If the path exists and `force` is not given.
@@ -197,10 +210,10 @@ def whole_file(path: Path, *, force: bool = False) -> Iterator[BinaryIO]:
 
 @contextmanager
 def whole_files(*paths: Path, force: bool = False) -> Iterator[list[BinaryIO]]:
-    """Open files for writing, which are renamed together to `paths` when all are complete.
+    """Open temporary files for writing, which are renamed to `paths` when all are complete.
 
     Args:
-        paths: Final paths; the last file is renamed last, because readers look for it.
+        paths: Final paths. The last path is that of the main file, which is renamed last.
         force: Whether existing files may be replaced.
 
     Raises:
@@ -248,9 +261,9 @@ def _write_tum(
 def _write_kitti(
     found: Sequence[Trajectory], path: Path, style: Style, force: bool, progress: Progress | None
 ) -> list[Path]:
-    """Write a KITTI file, with three rows of each matrix in a line, and a second file with stamps.
+    """Write a KITTI file, with the three rows of a pose's matrix in a line, and a file of stamps.
 
-    Both files are renamed together when they are complete, the file with poses last.
+    Both files appear when they are complete, the file with poses last.
     """
     times = path.with_name(f"{path.stem}_times.txt")
     rows = found[0].answered()
@@ -323,7 +336,9 @@ def _write_npz(
 def _write_parquet(
     found: Sequence[Trajectory], path: Path, style: Style, force: bool, progress: Progress | None
 ) -> list[Path]:
-    """Write a Parquet file with the columns of the CSV; if stamps count from 1970, also `stamp`.
+    """Write a Parquet file with the columns of the CSV format.
+
+    If stamps count from 1970, the file also has a column `stamp` of the type timestamp.
 
     Raises:
         UsageError: If the extra `parquet` is not installed.
@@ -396,7 +411,7 @@ def _writer(
     progress: Progress | None,
     before: bytes = b"",
 ) -> "Callable[..., None]":
-    """Return the fastest function to write blocks of rows that supports these numbers."""
+    """Return the fastest function that can write the rows of `rows` with these decimals."""
     done = 0
 
     def write(
