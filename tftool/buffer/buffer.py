@@ -67,8 +67,8 @@ class Shortened(NamedTuple):
     Attributes:
         child: The child frame.
         authority: Sender of the newest sample of the frame.
-        samples: Number of samples of the frame before.
-        kept: Number of samples of the frame after.
+        samples: Number of samples of the frame before dropping.
+        kept: Number of samples of the frame after dropping.
     """
 
     child: str
@@ -78,7 +78,7 @@ class Shortened(NamedTuple):
 
 
 def _share(sizes: list[int], room: int) -> int:
-    """Return the most samples per frame with which all frames fit into `room`, but at least 2."""
+    """Return the maximum number of samples per frame for `room` samples in total; at least 2."""
     left = len(sizes)
     for size in sorted(sizes):
         if size * left > room:
@@ -294,7 +294,8 @@ class Buffer(Door):
             authority: Sender of the samples.
 
         Returns:
-            The accepted rows, and the reasons for the rejected rows; true if all were accepted. The
+            The accepted rows, and the reasons for the rejected rows; true if all rows were
+            accepted. The
             first ten rejected rows are logged.
 
         Raises:
@@ -388,7 +389,8 @@ class Buffer(Door):
         self._solver.drop_paths()
 
     def listen(self, callback: Listener, owner: str = "") -> Callable[[], None]:
-        """Call `callback` with each sample accepted from now on; return a function that ends this.
+        """Call `callback` with each sample accepted from now on, until the returned function is
+        called.
 
         Exceptions of the callback are reported under the name `owner`. The sample stays stored, and
         the code that inserts the sample continues.
@@ -457,8 +459,7 @@ class Buffer(Door):
         source_time: Stamp,
         fixed_frame: str,
     ) -> TransformStamped:
-        """Return the pose of source at `source_time` in target at `target_time`, through a fixed
-        frame.
+        """Return the pose of source at `source_time` in target at `target_time`, by a fixed frame.
 
         Both poses are looked up relative to `fixed_frame`, which is assumed not to move between the
         two times.
@@ -499,7 +500,7 @@ class Buffer(Door):
         missing: Literal["raise", "nan"] = "raise",
         threads: int | None = None,
     ) -> "TransformArray":
-        """Return `lookup_transform` for many times at once, in numpy.
+        """Return the results of `lookup_transform` for many times at once, in numpy arrays.
 
         Args:
             target_frame: Frame in which the results are expressed.
@@ -533,7 +534,7 @@ class Buffer(Door):
         missing: Literal["raise", "nan"] = "raise",
         threads: int | None = None,
     ) -> "TransformArray":
-        """Return `lookup_transform_full` for many times at once, in numpy.
+        """Return the results of `lookup_transform_full` for many times at once, in numpy arrays.
 
         Either `target_times` or `source_times` may be a single number; see `lookup_transforms`.
 
@@ -559,8 +560,7 @@ class Buffer(Door):
         )
 
     def get_latest_common_time(self, target_frame: str, source_frame: str) -> Stamp:
-        """Return the newest time at which all frames between two frames have data; 0 if all are
-        static.
+        """Return the newest time with data for all frames between two frames; 0 if all are static.
 
         Raises:
             TransformException: If a name is unknown or invalid, or the two frames are in different
@@ -589,8 +589,7 @@ class Buffer(Door):
     ) -> solver.Velocity:
         """Return the velocity of `tracking_frame` in `observation_frame`, by tf2's formula.
 
-        `solver.full` explains how tf2's numbers differ; `lookup_twist` returns the true
-        velocities.
+        `solver.full` describes the errors of tf2's formula; `lookup_twist` has no such errors.
         """
         return solver.full(
             self,

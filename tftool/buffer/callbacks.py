@@ -1,5 +1,4 @@
-"""Callbacks of a buffer and a simulated world: listeners, pending requests, backward jumps of a
-clock.
+"""Listeners, pending requests for transforms, and detection of backward jumps of a clock.
 
 Buffers, topics, logs and worlds treat listeners alike. An exception of a listener is reported with
 the name of its owner; the other listeners and the publishing code continue. A pending request for a

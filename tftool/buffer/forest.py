@@ -120,8 +120,8 @@ class Walk:
         top: Last frame reached by going up from the source.
         end: Last frame reached by going up from the target.
         refused: Frame without data at that time, if the outcome is REFUSED.
-        timeless: Whether the path is the same at every time, because no visited frame lacked data
-            or ever has another parent.
+        timeless: Whether the path is the same at every time: every visited frame had data, and
+            always has the same parent.
         above: Visited frames above the common ancestor, if the outcome is ARRIVED.
     """
 
@@ -148,7 +148,7 @@ class Walk:
         return self
 
     def visited(self) -> list[int]:
-        """Return the numbers of all visited frames except those above the common ancestor."""
+        """Return the numbers of all visited frames except frames above the common ancestor."""
         return [*self.up, *self.down, self.top, self.end]
 
 

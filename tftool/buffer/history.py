@@ -121,13 +121,13 @@ else:
 
 
 class StaticLink(Fields):
-    """A static link to a parent: one sample, overwritten by the next.
+    """A static link to a parent, with one sample, which the next sample overwrites.
 
     Attributes:
         is_static: Always true.
         newest_stamp: Always 0, as in tf2.
         oldest_stamp: Always 0.
-        parent: Number of the parent; NO_PARENT before there is one.
+        parent: Number of the parent; NO_PARENT before the first sample.
         origin: Numbers of parent and authority in one integer; see the docstring of this module.
         mixed: Always false: a static link has one parent.
     """
@@ -362,9 +362,10 @@ class History(Fields):
         return self.count
 
     def index(self, time: Stamp) -> int:
-        """Return the index of the last sample at or before `time`; oldest <= time < newest.
+        """Return the index of the last sample at or before `time`.
 
-        The index is guessed from the mean rate, corrected once, and searched if that fails.
+        `time` must be before the newest, but not before the oldest stamp. The index is guessed from
+        the mean rate and corrected once. Only a wrong guess needs a search.
         """
         records = self.records
         # The stamp at `low` is not after the time; the stamp at `high` is after it.
@@ -569,7 +570,7 @@ class History(Fields):
         return self.start - 1
 
     def _splice(self, start: int, stop: int, words: "array[int]") -> None:
-        """Replace the records from `start` up to, but not including, `stop` by other records."""
+        """Replace the records from `start` up to, not including, `stop` by the records `words`."""
         where = slice(WORDS * start, WORDS * stop)
         try:
             self.records[where] = words
@@ -614,7 +615,7 @@ class History(Fields):
             self._prune(oldest_kept)
 
     def replace(self, records: "Words", origins: "array[int]") -> None:
-        """Replace all samples by at least one sample, oldest first.
+        """Replace all samples by the samples in `records` (at least one), oldest first.
 
         Samples with equal stamps are in the order of insertion.
         """
@@ -711,7 +712,7 @@ class History(Fields):
     # Pruning
 
     def keep_last(self, number: int) -> None:
-        """Drop the oldest samples until `number` remain; two always remain."""
+        """Drop the oldest samples until `number` samples remain, but never fewer than two."""
         if len(self) > (number := max(2, number)):
             self._let_go(self.count - number)
 

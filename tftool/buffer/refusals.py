@@ -1,4 +1,4 @@
-"""The buffer's error messages, in tf2's words."""
+"""Error and log messages of the buffer, in tf2's wording."""
 
 from collections.abc import Callable, Collection, Iterable
 from typing import Final
@@ -63,7 +63,7 @@ def unconnected(target: str, source: str) -> ConnectivityException:
 
 
 def loop(frames: str, target: str, source: str) -> LookupException:
-    """Return the error for a chain with a loop; `frames` lists all frames."""
+    """Return the error for a chain with a loop; `frames` is tf2's text about all frames."""
     return LookupException(
         f"The tf tree is invalid because it contains a loop.\n{frames}\n",
         target=target,

@@ -18,7 +18,7 @@ _Located: TypeAlias = tuple[int, Sample | None, Sample | None]
 
 
 def snapshot(tree: FrameTree, now: Stamp, at: Stamp) -> Snapshot:
-    """Return the state of all frames at the time `at`, or at each frame's latest time if 0."""
+    """Return the state of all frames at the time `at`; 0 means each frame's latest time."""
     sweep = _Sweep(tree, at)
     return Snapshot(now, at, tuple(sweep.info(frame, now) for frame in tree.frames))
 
@@ -29,7 +29,7 @@ def rate(link: Link) -> float:
 
 
 def rate_of(samples: int, span: Duration) -> float:
-    """Return the rate in hertz, by tf2's formula, of some samples within `span` nanoseconds."""
+    """Return the rate in hertz, by tf2's formula, of a number of samples in `span` nanoseconds."""
     return samples * 1e9 / max(span, _SHORTEST)
 
 
@@ -155,7 +155,7 @@ def as_yaml(frames: Iterable[FrameInfo], current_time: Stamp = 0) -> str:
             this time.
 
     Returns:
-        tf2's text, with names unquoted: "[]" if there are no frames at all, and "" if no frame has
+        The text in tf2's form, with unquoted names; "[]" without frames, and "" if no frame has
         data.
     """
     frames = list(frames)

@@ -146,7 +146,7 @@ def full(
     time: Stamp,
     interval: Duration,
 ) -> Velocity:
-    """Return the velocity that tf2's `lookup_velocity_full` computes, with its known errors.
+    """Return the velocity that tf2's `lookup_velocity_full` computes, including tf2's errors.
 
     The result is a spatial twist if the reference does not rotate relative to the tracked frame.
     Otherwise tf2 applies the wrong rotation to the vectors, and moves the reference point with an

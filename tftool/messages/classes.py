@@ -298,7 +298,7 @@ class Interfaces(Schema):
         return self.part(full)
 
     def earlier(self, full: str) -> list[type[Message]]:
-        """Return a message type's classes in earlier ROS distributions; [] if the type never
+        """Return the classes of a message type in earlier ROS distributions; [] if it never
         changed.
 
         Each class has other fields than the present class, or nested messages with other fields.

@@ -37,8 +37,7 @@ _SMALLEST_TEXT: Final = 4
 class Codec:
     """Serialiser of one message type in one byte layout.
 
-    `encode` accepts any object with the fields as attributes; `decode` returns a message of the
-    class.
+    `encode` accepts any object with the fields as attributes; `decode` returns a message.
     """
 
     def __init__(self, kind: type[Message], layout: Layout = CDR) -> None:

@@ -197,7 +197,7 @@ class Schema:
         """Return the parts of a service's or action's definition by name: "Request", "Goal", ….
 
         Raises:
-            InputError: If there is no such interface, or the definition has more or fewer parts.
+            InputError: If the interface is unknown, or the definition has a wrong number of parts.
         """
         full = f"{package}/{kind}/{name}"
         text = self.text(package, kind, name)
@@ -254,7 +254,7 @@ class Schema:
 
 
 def _of_action(folder: str, base: str, part: str) -> str | None:
-    """Return the definition of a type that ROS 2 derives from an action; else None."""
+    """Return the definition of a type that ROS 2 derives from an action; None for other types."""
     action = base.rpartition("_")[0]
     if part == "FeedbackMessage":
         return f"{_GOAL_ID}{folder}{base}_Feedback feedback"

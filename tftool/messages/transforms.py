@@ -185,7 +185,7 @@ def decode_columns(payload: bytes) -> TransformColumns:
 
 
 def _skim_name(payload: bytes, words: "memoryview[int]", word: int, names: list[str]) -> int:
-    """Append the name at an offset in words of 4 bytes to `names`; return the offset after it."""
+    """Append the name at `word`, an offset in 4-byte words, to `names`; return the next offset."""
     length = words[word]
     begin = word * 4 + 4
     if length > len(payload) - begin:
@@ -197,7 +197,11 @@ def _skim_name(payload: bytes, words: "memoryview[int]", word: int, names: list[
 
 
 def _head(key: tuple[str, str, int]) -> bytes:
-    """Return the bytes of two frame names with lengths, padded up to the first double."""
+    """Return the encoded frame names of a transform, padded up to the transform's first double.
+
+    Args:
+        key: Parent, child, and offset of the names modulo 8.
+    """
     parent, child, phase = key
     head = _text(parent)
     head += bytes(-len(head) % 4) + _text(child)

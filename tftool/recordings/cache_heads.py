@@ -101,7 +101,7 @@ def head_size(start: bytes) -> int:
 
 
 def parsed_head(data: bytes, key: str) -> dict[str, Any]:
-    """Parse the header of a cache file, which has the names of the frames.
+    """Parse the JSON header of a cache file, which contains the names of the frames.
 
     Args:
         data: Bytes of the file before the columns.
@@ -123,7 +123,7 @@ def parsed_head(data: bytes, key: str) -> dict[str, Any]:
 
 
 def frames_kept(found: Found) -> list[str] | None:
-    """Return the frame names of a recording from the cache, sorted; None if they are not cached."""
+    """Return the sorted frame names of a recording from the cache; None if they are not cached."""
     folder = default_folder()
     if folder is None:
         return None

@@ -220,7 +220,8 @@ def restyled(text: str, version: int) -> str:
 
     Args:
         text: The QoS profiles, in YAML.
-        version: Version of `metadata.yaml`: versions below `NUMBERS_BELOW` have numbers.
+        version: Version of `metadata.yaml`. Policies are numbers in versions below `NUMBERS_BELOW`,
+            else words.
     """
 
     def policy(match: "re.Match[str]") -> str:

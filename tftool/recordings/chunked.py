@@ -71,7 +71,7 @@ class WalkedMessages:
 
     @property
     def span(self) -> tuple[Stamp, Stamp]:
-        """Return the first and the last log time; 0 without messages."""
+        """Return the first and the last log time; (0, 0) without messages."""
         return min(self.log_times, default=0), max(self.log_times, default=0)
 
 
@@ -196,7 +196,7 @@ class ChunkedReader(File):
     # Damage
 
     def note(self, damage: str) -> None:
-        """Append a sentence about damage of the file to `self.damage`, but each sentence once."""
+        """Append a sentence about damage of the file to `self.damage`; ignore a known sentence."""
         if damage not in self.damage and len(self.damage) < _MOST_NOTED:
             self.damage.append(damage)
 

@@ -21,8 +21,7 @@ class ChunkedWriter:
     """Base class of writers of files with chunks; see `ContainerWriter`.
 
     A chunk is written when the chunk is full, and by `flush`. Up to the last written chunk, the
-    file can be
-    read even if the program crashes.
+    file can be read even if the program crashes.
 
     Attributes:
         method: Compression of the chunks.

@@ -148,9 +148,9 @@ class Growing:
         parent: Parent frame, as in `Edge`.
         child: Child frame, as in `Edge`.
         static: Whether the transforms are static, as in `Edge`.
-        records: Samples in the layout of `History`, which uses the array without a copy. The last
-            rows are free.
-        messages: Number of the message of each sample. The last rows are free.
+        records: Samples in the layout of `History`, which uses the array without a copy. Rows after
+            the last sample are free.
+        messages: Number of the message of each sample. Rows after the last sample are free.
         state: Six numbers, shared with the native scan: number of rows; number of the last message;
             whether the messages came in order; number of rows at the beginning that `History` can
             use without a check; number of transforms whose leading slash was removed; and how often

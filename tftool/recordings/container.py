@@ -105,7 +105,7 @@ class MessageTable:
 
     @property
     def owners(self) -> list[int]:
-        """Channels with messages in the table, in order of first appearance."""
+        """Numbers of the channels with messages in the table, in order of first appearance."""
         channels, firsts = np.unique(self.channels, return_index=True)
         found: list[int] = channels[np.argsort(firsts)].tolist()
         return found

@@ -97,7 +97,7 @@ class Recorded:
 
     @property
     def kind(self) -> str:
-        """Name of the file format, for sentences."""
+        """Name of the file format in messages to the user."""
         return self._container.kind
 
     @property
@@ -160,7 +160,7 @@ class Recorded:
     def transforms(
         self, topics: Collection[str] | None = None, progress: Progress | None = None
     ) -> Transforms:
-        """Return the transforms on the given topics, or on all topics with transforms if None.
+        """Return the transforms on some topics; None selects all topics with transforms.
 
         Odometry and PoseStamped are read as transforms if their topics are named.
         """

@@ -139,7 +139,7 @@ SUFFIXES: Final = (*(one.suffix for one in CONTAINERS), PACKED_SUFFIX)
 
 
 def container_of(path: Path) -> str:
-    """Return the name of the file format for a suffix; "" for a path without one (a folder).
+    """Return the name of the file format for a path's suffix; "" if the path has no suffix.
 
     Raises:
         UsageError: If no file format has this suffix.

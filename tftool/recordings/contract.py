@@ -54,7 +54,7 @@ class Publisher:
     Attributes:
         topic: Name of the topic.
         node: Name of the publishing node, such as "/robot_state_publisher"; "" if not recorded. ROS
-            2 never records it.
+            2 never records node names.
         durability: "transient_local" if late subscribers get the last messages, as with ROS 1's
             latching; else "volatile"; "" if not recorded.
         reliability: "reliable" or "best_effort"; "" if not recorded.

@@ -1,4 +1,4 @@
-"""Completion of recorded transforms by frames of the recorded robot description."""
+"""Insertion of a recorded robot description's frames into a buffer of recorded transforms."""
 
 import re
 import struct

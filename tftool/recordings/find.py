@@ -61,7 +61,7 @@ def fetched(place: str) -> Iterator[str]:
 def listed(place: str) -> list[str]:
     """Return the files that match a URL with wildcards; return `[place]` without a wildcard.
 
-    The wildcards are `*`, `?` and `[…]`, but `?` only in URLs that are not http(s).
+    The wildcards are `*`, `[…]` and, except in http(s) URLs, `?`.
 
     Raises:
         InputError: If no file matches, or a folder cannot be listed.
@@ -282,10 +282,10 @@ def find(word: str) -> Found:
 
 
 def _kind_with_options(word: str, path: Path) -> Kind:
-    """Return the kind of one file, and check that no other file has options of pose files.
+    """Return the kind of a file; only a pose file may have options of pose files.
 
     Raises:
-        UsageError: If options of pose files are given for another file.
+        UsageError: If a file of another kind has options of pose files.
     """
     options = options_of(word)
     if options.pose_format is not None:

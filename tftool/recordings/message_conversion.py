@@ -183,7 +183,7 @@ def as_ros2(channel: Channel) -> Conversion:
     """Return the conversion of a ROS 1 channel to ROS 2.
 
     Raises:
-        InputError: If the type is unknown, or the messages have another encoding.
+        InputError: If the type is unknown, or the messages are not encoded as in ROS 1 or ROS 2.
     """
     if channel.encoding == "cdr":
         return Conversion(channel, bytes)
@@ -215,8 +215,8 @@ def as_ros1(channel: Channel) -> Conversion:
     """Return the conversion of a ROS 2 channel to ROS 1.
 
     Raises:
-        InputError: If the type is unknown or has no equivalent in ROS 1, or the messages have
-            another encoding.
+        InputError: If the type is unknown or has no equivalent in ROS 1, or the messages are not
+            encoded as in ROS 1 or ROS 2.
     """
     if channel.encoding == "ros1":
         return Conversion(channel, bytes)

@@ -233,7 +233,7 @@ class ScanCutter(Cutter):
             self._walk(batch.chosen(which), numbers[which])
 
     def _aim(self, pair: int, message: int, rank: int) -> None:
-        """Give the C code rows for the transforms of a pair of frames that has no free row.
+        """Provide rows for further transforms of a pair of frames; called by the C code.
 
         Args:
             pair: Number of the pair.

@@ -31,7 +31,7 @@ MOST_HELD: Final = 1 << 30
 
 
 class Kept(NamedTuple):
-    """One message in the ring buffer."""
+    """One message in the ring buffer, with the number of transforms in the message."""
 
     channel: Channel
     log_time: Stamp

@@ -36,7 +36,7 @@ def refuse_existing(path: Path, *, force: bool) -> None:
     """Raise an error if the path exists (even as a broken symbolic link), unless `force` is given.
 
     Raises:
-        UsageError: If the path exists and `force` is not given, or is `-`.
+        UsageError: If the path is `-`, or exists and `force` is not given.
     """
     refuse_stdout(path)
     if not force and os.path.lexists(path):

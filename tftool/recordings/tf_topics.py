@@ -24,7 +24,7 @@ class RobotNames:
     """Frame names of several robots, distinguished by namespaces.
 
     Attributes:
-        robots: Namespaces without slashes around them; empty for topics without a namespace.
+        robots: Namespaces without slashes at the ends; "" for topics without a namespace.
         colliding: Frame names that several robots use for different frames.
     """
 

@@ -222,7 +222,7 @@ class Timeline:
         return numbers[self._transforms.senders[self._order[places]]], names
 
     def message(self, place: int) -> list[Due]:
-        """Return the transforms of a message, moving and static transforms separately."""
+        """Return the transforms of message number `place`, separately by moving and static."""
         moment = int(self.moments[place])
         sender = self._transforms.senders[self._order[place]]
         publisher = self._transforms.publishers[int(sender)]

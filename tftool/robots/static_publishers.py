@@ -32,7 +32,7 @@ class StaticFrames:
     """Static transforms that a launch file or a shell script publishes.
 
     Attributes:
-        name: The file, as it was given.
+        name: Name of the file, as the user gave it.
         links: Published transforms, in the order of the file.
         notes: Sentences about parts that cannot be read.
         start: Always 0, because static transforms are valid at all times.

@@ -256,7 +256,7 @@ class BlockArrays:
         Args:
             up: Edges from the source up to the common ancestor.
             down: Edges from the target up to the common ancestor.
-            times: Nanoseconds at which every edge has data, shape (n,), n as allocated.
+            times: Nanoseconds at which every edge has data, shape (n,); n is the allocated number.
             in_order: Whether the times never decrease.
             translations: Output in metres, shape (n, 3).
             rotations: Output, unit quaternions in xyzw order, shape (n, 4).

@@ -207,7 +207,7 @@ class Buckets:
     def find(
         self, times: Stamps, index: Indices, spare: Stamps, later: npt.NDArray[np.bool_]
     ) -> None:
-        """Write the index of the last sample at or before each time into `index`, for any times."""
+        """Write the index of the last sample at or before each time into `index`, in any order."""
         # If samples come in bursts, some buckets are full, and a binary search is faster.
         if self._steps > _MOST_STEPS:
             index[:] = np.searchsorted(self._stamps, times, "right") - 1

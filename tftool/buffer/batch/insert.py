@@ -37,7 +37,7 @@ _BLOCK = 8192  # rows per chunk; a chunk fits into the processor's cache
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Insertion:
-    """Result of a bulk insertion, which is true in a condition if every sample was accepted.
+    """Result of a bulk insertion, with the truth value True if every sample was accepted.
 
     Attributes:
         accepted: Whether each row was accepted, shape (n,). A row equal to a stored sample counts

@@ -45,11 +45,12 @@ class Edits:
         rename: New frame names, by old name.
         prefix: Prefix to add to every frame name.
         strip_slash: Whether to remove leading slashes from frame names.
-        poses: New poses of links: x y z and x y z w.
+        poses: New poses of links: position x y z (metres) and quaternion x y z w.
         reparent: New parent by link. The poses are recomputed, so that the child does not move.
         statics_first: Whether to write the static transforms at the beginning, in one message
             for each channel.
-        statics_from: Static transforms that replace recorded ones of the same children.
+        statics_from: Static transforms that replace recorded static transforms of the same
+            children.
         start: First time to keep, nanoseconds; None for the beginning of the recording.
         end: Last time to keep, nanoseconds; None for the end of the recording.
         by_record_time: Whether `start` and `end` are log times; if not, they are stamps.
@@ -372,7 +373,7 @@ class Changer:
         return self.edited(old, log_time, static=static) if edits.links or self._replaced else old
 
     def edited(self, old: TransformRow, log_time: Stamp, *, static: bool) -> TransformRow | None:
-        """Return a transform after all changes except --from and --to; None for a dropped one."""
+        """Return a transform after all changes but --from and --to; None if the edit drops it."""
         edits = self._edits
         link = stripped(old.parent), stripped(old.child)
         if any(fits(link, wanted) for wanted in edits.drop):

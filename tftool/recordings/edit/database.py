@@ -1,8 +1,8 @@
 """Editing of rosbag2's sqlite files: the file is copied, and changed rows are updated.
 
 Unchanged rows keep their bytes, numbers and order. Other tables and the schema version do not
-change. Edits that cut, join or split recordings, or add messages at the start, do not
-use this module.
+change. Edits that cut, join or split recordings, or add messages at the start, do not use this
+module.
 """
 
 import os
@@ -172,7 +172,7 @@ class EditedDatabase:
         """Read the changed rows back from the file, and compare them with the rows to write.
 
         Raises:
-            InputError: If the rows differ from the intended ones.
+            InputError: If a row differs from the intended row.
         """
         found: dict[tuple[str, str], int] = {}
         address = f"file:{quote(str(self.path))}?mode=ro&immutable=1"

@@ -182,7 +182,7 @@ class EditedFile:
         return found
 
     def _fits(self, source: int, tape: ContainerReader) -> bool:
-        """Whether chunks of an input may be copied, as channel numbers are equal here."""
+        """Whether chunks of an input may be copied, because the channel numbers are the same."""
         found = self._compatible.get(source)
         if found is None:
             found = tape.container == self.container and (
@@ -298,7 +298,7 @@ class EditedFile:
             self.end = max(self.end, chunk.end)
 
     def closed_block(self, block: Block) -> None:
-        """Write the current chunk, which replaces a block of an input, compressed like `block`."""
+        """Write the current chunk, which replaces `block`, with the compression of `block`."""
         if (
             self._chunks is not None
             and isinstance(block, Chunk)

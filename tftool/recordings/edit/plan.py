@@ -173,7 +173,7 @@ def open_tape(path: Path, kind: Kind | None = None, *, unpacks: bool = False) ->
 
 
 def changer_for(edits: Edits, recordings: Sequence[Recording]) -> Changer:
-    """Check all options of an edit; return the editor of the messages.
+    """Check all options of an edit, and create the editor of the messages.
 
     Args:
         edits: The edits.

@@ -1,8 +1,8 @@
 """Writer of changed recordings for `tftool edit`, which copies all unchanged bytes.
 
 Every chunk is copied if none of its messages change, else parsed and changed. Then the output is
-read back, and compared completely with the intended content. At last the output is renamed to its
-final name.
+read back, and compared completely with the intended content. Finally the output gets its final
+name.
 """
 
 import contextlib
@@ -301,7 +301,7 @@ class _Job:
     # Databases
 
     def _changed_in_place(self) -> list[Sqlite]:
-        """Return the input databases if they can be updated row by row; else an empty list."""
+        """Return the input databases if single rows can be updated; else an empty list."""
         tapes = [tape for tape in self._tapes if isinstance(tape, Sqlite)]
         alike = len(tapes) == len(self._tapes) and self._container == "db3"
         one_to_one = self._by_tape or (len(tapes) == 1 and not self._edits.split_every)

@@ -289,7 +289,7 @@ def strings_at(body: bytes, place: int) -> dict[str, str]:
 
 
 def text_at(body: bytes, place: int, last: int | None = None) -> tuple[str, int]:
-    """Parse the length of a string, and then the string.
+    """Parse a string that is stored after its length.
 
     Args:
         body: Body of the record.

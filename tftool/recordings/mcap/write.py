@@ -182,7 +182,7 @@ class McapWriter(ChunkedWriter):
         return number
 
     def agrees(self, schemas: Mapping[int, tuple[str, str, bytes]]) -> bool:
-        """Whether each schema number is unused in this file, or belongs to the same schema."""
+        """Whether each schema number is unused in this file, or has the same schema here."""
         here = {number: key for key, number in self._schemas.items()}
         return all(
             here[number] == schema if number in here else number not in self._schema_records
@@ -192,7 +192,7 @@ class McapWriter(ChunkedWriter):
     def add_channel(
         self, number: int, schema: int, topic: str, encoding: str, metadata: bytes
     ) -> None:
-        """Register a channel by the fields of its record; `metadata` is serialised."""
+        """Register a channel from the fields of a channel record, with `metadata` as bytes."""
         self._schema_of[number] = schema
         self._channel_records[number] = record(
             CHANNEL, struct.pack("<HH", number, schema) + text(topic) + text(encoding) + metadata
@@ -427,8 +427,7 @@ class McapWriter(ChunkedWriter):
         self._put(end + summary + MCAP_MAGIC)
 
     def rescue(self) -> bool:
-        """Complete the file after the last whole chunk, for example on a full disk, and close the
-        file.
+        """Complete the file after the last whole chunk, if the disk is full, and close the file.
 
         Returns:
             Whether there was space for the summary.

@@ -34,7 +34,7 @@ class PoseLink:
         parent: Name of the parent.
         child: Name of the child.
         static: Whether the only pose is valid at all times.
-        width: Numbers per pose: 7 (x y z, qx qy qz qw) or 12 (the upper rows of the matrix).
+        width: Number of values per pose: 7 (x y z, qx qy qz qw) or 12 (the upper rows of a matrix).
         stamps: Stamp of each pose, nanoseconds.
         numbers: Numbers of all poses, concatenated.
     """
@@ -172,7 +172,7 @@ class PoseFile:
         return stamp
 
     def at_rate(self, link: PoseLink) -> None:
-        """Compute stamps for a link's poses from --pose-rate, beginning with one period, not 0.
+        """Compute stamps for a link's poses from --pose-rate; the first stamp is one period.
 
         Raises:
             InputError: If --pose-rate was not given.

@@ -116,11 +116,11 @@ def options_of(word: str) -> PoseOptions:
 def collect(given: "list[tuple[str | None, str, Any]]") -> ChosenOptions:
     """Return the options of each file.
 
-    An option belongs to the file before it on the command line; an option before the first file
+    An option belongs to the preceding file on the command line. An option before the first file
     belongs to all files.
 
     Args:
-        given: For each option: the file before it, the option's name, and its value.
+        given: Preceding file (None for all files), name and value of each option.
     """
     every: dict[str, Any] = {}
     named: dict[str, dict[str, Any]] = {}
@@ -142,7 +142,7 @@ def path_behind_prefix(word: str) -> tuple[str, Path | None]:
     """Split NAME=FILE into prefix and file; the prefix is "" if the whole word names a file.
 
     Returns:
-        The prefix, and the path of the file, or None if there is no such file.
+        The prefix, and the path of the file; None in place of the path if the file is missing.
     """
     try:
         if Path(word).exists():

@@ -59,7 +59,7 @@ def read_nerfstudio(file: PoseFile) -> list[PoseLink]:
 
 
 def _images(file: PoseFile, images: list[tuple[str, list[float]]], width: int) -> list[PoseLink]:
-    """Return a moving camera with a pose per image if --pose-rate is given, else static frames."""
+    """Return one moving camera if --pose-rate is given, else one static frame per image."""
     if file.options.pose_rate is not None:
         link = file.link(width)
         for _, numbers in sorted(images, key=lambda one: one[0]):
@@ -200,7 +200,7 @@ def _yaml(file: PoseFile) -> Mapping[Any, Any]:
 
 
 class _refused:  # noqa: N801 - used as a function
-    """Context manager that turns errors in the `with` block to errors that name the file."""
+    """Context manager that converts errors in the `with` block to errors that name the file."""
 
     def __init__(self, file: PoseFile, expected: str) -> None:
         self._file = file
@@ -247,7 +247,7 @@ def read_tum(file: PoseFile) -> list[PoseLink]:
 
 
 def read_euroc(file: PoseFile) -> list[PoseLink]:
-    """Return the link in EuRoC's data.csv: nanoseconds, position, quaternion with w first."""
+    """Return the link in EuRoC's data.csv: stamp in ns, position, quaternion with w first."""
     link = file.link()
     for words in file.rows():
         if len(words) < 8:

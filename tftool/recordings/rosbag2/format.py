@@ -143,7 +143,7 @@ def write_metadata(folder: Path, text: str) -> None:
 
 
 def _offers(text: str, version: int) -> Any:
-    """Return a topic's QoS as a metadata version requires: text up to 8, a list from 9 on."""
+    """Return a topic's QoS for a metadata version: text up to version 8, else a list."""
     text = restyled(text, version)
     if version < VERSION:
         return text

@@ -159,7 +159,7 @@ class SqliteWriter:
 
 
 class translated:  # noqa: N801 -- used as a function in a `with`
-    """Context that converts exceptions of sqlite to errors that name the written file."""
+    """Context manager that converts sqlite's exceptions to errors that name the written file."""
 
     def __init__(self, path: Path) -> None:
         self._path = path
