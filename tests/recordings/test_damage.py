@@ -251,7 +251,7 @@ def test_metadata_that_lies_is_told_and_not_believed(tmp_path):
     (path / "a.db3").rename(path / "renamed.db3")
     with open_recording(path) as recording:
         assert len(recording.transforms) > 100
-        assert "names 'a.db3', which is not there" in recording.damage[0]
+        assert "names 'a.db3', which is missing" in recording.damage[0]
         assert "Read instead: 'renamed.db3'" in recording.damage[1]
     (path / "metadata.yaml").write_text("}{")
     with open_recording(path) as recording:

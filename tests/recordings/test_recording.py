@@ -124,7 +124,7 @@ def test_of_contradicting_statics_the_last_counts(tmp_path):
 
         assert found.translation == numbers(3)[:3]
         assert recording.oddities == {
-            "'lidar' has 3 different static values: the last one counts": 1
+            "'lidar' has 3 different static values: the last value counts": 1
         }
 
 

@@ -251,9 +251,10 @@ class Solver:
         return time, (*pose.translation, *pose.rotation)
 
     def way(self, target: str, source: str, time: Stamp) -> tuple[Stamp, Path, bool]:
-        """Find the path from source to target; return the time of the lookup, the path, and a flag.
+        """Find the path from source to target at a time; 0 means the latest common time.
 
-        For `time` 0 the latest common time is returned. The flag is true if the path was cached.
+        Returns:
+            The time of the lookup, the path, and whether the path is now in the cache.
 
         Raises:
             TransformException: As in `Buffer.lookup_transform`.

@@ -36,10 +36,10 @@ _MOST_NOTED: Final = 20  # sentences about damage: a hostile file may be damaged
 
 
 def reason_of(error: Exception) -> str:
-    """Describe an exception that was raised while reading a record: "a record is cut"."""
+    """Describe an exception that was raised while reading a record: "a record is cut off"."""
     if isinstance(error, KeyError):
         return f"a record lacks its field {error.args[0].decode('ascii', 'replace')!r}"
-    return "a record is cut" if isinstance(error, struct.error) else str(error)
+    return "a record is cut off" if isinstance(error, struct.error) else str(error)
 
 
 class WalkedMessages:
@@ -458,7 +458,7 @@ class ChunkedReader(File):
                             batch = self._rest_of(chunk, chosen)
                         except FAULTS as worse:
                             reason = reason_of(worse)
-                            self.note(f"A chunk at byte {chunk.position} is lost ({reason}).")
+                            self.note(f"A chunk at byte {chunk.position} is unreadable ({reason}).")
                 yield chunk, batch if batch is not None and len(batch) else None
 
     def _ahead(self, chunk: Chunk) -> Packed | None:

@@ -186,7 +186,10 @@ class Ahead:
         return found.future
 
     def _come_to(self, key: object) -> _Coming | None:
-        """Return the chunk with a key, or None; drop the earlier chunks, and start later chunks."""
+        """Return the queued chunk with a key; drop the chunks before it, and queue more chunks.
+
+        Return None if the chunk is not decompressed ahead.
+        """
         self._start()
         while self._coming:
             passed = next(iter(self._coming))

@@ -326,7 +326,9 @@ def kind_of_file(path: Path) -> Kind:
     mode = path.stat().st_mode
     if not stat.S_ISREG(mode):
         what = "a pipe" if stat.S_ISFIFO(mode) else "a device"
-        raise InputError(f"'{path}' is {what}, which cannot be searched: save it to a file first.")
+        raise InputError(
+            f"'{path}' is {what}, which cannot be searched: save the data to a file first."
+        )
     with path.open("rb") as file:
         head = file.read(HEAD)
     if not head:

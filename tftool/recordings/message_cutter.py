@@ -265,7 +265,7 @@ class ScanCutter(Cutter):
         self._pairs.aim(number, edge.records, edge.messages, edge.state)
 
     def _named(self, pair: int) -> tuple[str, str]:
-        """Return the names of parent and child of a pair, decoded like the function `walk`."""
+        """Return the frame names of a pair as text: parent, child."""
         raw = self._pairs.names(pair)
         if self._layout is CDR:
             # In CDR a string's bytes include the final zero.

@@ -470,12 +470,12 @@ def _set_static(
     pose = Transform((x, y, z), (qx, qy, qz, qw))
     sample = TransformStamped(int(edge.stamps[-1]), edge.parent, edge.child, pose)
     if not buffer.set_transform_static(sample, authority):
-        oddities[f"the static '{edge.child}' in '{edge.parent}' is refused by tf2"] += 1
+        oddities[f"tf2 refuses the static transform of '{edge.child}' in '{edge.parent}'"] += 1
     if sum(map(len, edges)) == 1:
         return
     values = sum(len(np.unique(one.records[:, 1:], axis=0)) for one in edges)
     if values > 1:
-        text = f"'{edge.child}' has {values} different static values: the last one counts"
+        text = f"'{edge.child}' has {values} different static values: the last value counts"
         oddities[text] += 1
 
 

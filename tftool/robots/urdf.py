@@ -70,13 +70,13 @@ def load_description(
     if is_xacro(text):
         if plain:
             raise InputError(
-                f"'{path}' contains xacro, which scenarios do not expand: expand it first (xacro "
-                "FILE -o robot.urdf)"
+                f"'{path}' contains xacro, which scenarios do not expand: expand the file first "
+                "(xacro FILE -o robot.urdf)"
             )
         if Path(path).suffix != ".xacro":
             raise InputError(
                 f"'{path}' contains xacro, which may run Python, and its name does not end in "
-                ".xacro: rename it, or expand it first (xacro FILE -o robot.urdf)"
+                ".xacro: rename the file, or expand the file first (xacro FILE -o robot.urdf)"
             )
         return parse_description(expand(Path(path), arguments or {}), f"{path} (expanded)")
     if arguments:
@@ -211,7 +211,7 @@ class _Reader:
     def read(self) -> RobotDescription:
         robot = self._parsed()
         if robot.tag != "robot":
-            self._give_up(robot, f"the document is <{robot.tag}>; a description is <robot>")
+            self._give_up(robot, f"the root element is <{robot.tag}>, but must be <robot>")
         name = robot.attributes.get("name", "")
         if "name" not in robot.attributes:
             self._note(robot, "the robot has no name")

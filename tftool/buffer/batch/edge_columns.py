@@ -207,7 +207,10 @@ class Buckets:
     def find(
         self, times: Stamps, index: Indices, spare: Stamps, later: npt.NDArray[np.bool_]
     ) -> None:
-        """Write the index of the last sample at or before each time into `index`, in any order."""
+        """Write the index of the last sample at or before each time into `index`.
+
+        The times may be in any order. `spare` and `later` are work arrays of shape (n,).
+        """
         # If samples come in bursts, some buckets are full, and a binary search is faster.
         if self._steps > _MOST_STEPS:
             index[:] = np.searchsorted(self._stamps, times, "right") - 1

@@ -67,7 +67,7 @@ class CheckedRows:
     Attributes:
         stamps: Nanoseconds, shape (n,).
         samples: Position and canonical unit quaternion, shape (n, 7).
-        reasons: For each of tf2's codes for a fault, the mask of the rows with that fault.
+        reasons: Mask of the rows with a fault, by tf2's code for the fault.
         validated: Mask of the valid rows.
     """
 

@@ -170,7 +170,7 @@ class TransformArray:
     def __matmul__(self, other: "TransformArray | Transform") -> "TransformArray":
         """Chain row by row: `a_from_b @ b_from_c` is `a_from_c`.
 
-        If `other` is a `Transform`, each row is multiplied by `other`; names and stamps remain.
+        If `other` is a `Transform`, each row is multiplied by `other`; names and stamps are kept.
 
         A row is valid if both of its factors are valid; a quaternion of zeros is not valid.
 

@@ -152,7 +152,7 @@ def _offset(projection: Sequence[float]) -> list[float]:
     fx, _, cx, px, _, fy, cy, py, _, _, _, z = projection
     if not fx or not fy:
         raise InputError(
-            "A projection matrix in KITTI's calib.txt has the focal length 0: correct it."
+            "A projection matrix in KITTI's calib.txt has the focal length 0: correct the file."
         )
     return [(px - cx * z) / fx, (py - cy * z) / fy, z]
 

@@ -73,8 +73,8 @@ def files_of_folder(folder: Path, damage: list[str]) -> list[Path]:
     others = [path for path in there if path not in parts]
     if missing:
         damage.append(
-            f"Its {METADATA} names {_few(missing)}, which {'is' if len(missing) == 1 else 'are'} "
-            "not there."
+            f"The {METADATA} names {_few(missing)}, which {'is' if len(missing) == 1 else 'are'} "
+            "missing."
         )
         if not parts and others:
             damage.append(f"Read instead: {_few([path.name for path in others])}.")
@@ -122,7 +122,7 @@ def _listed(folder: Path, damage: list[str]) -> list[str]:
     """Return the file names in the metadata of a folder, without paths."""
     path = folder / METADATA
     if not path.exists():
-        damage.append(f"There is no {METADATA}: the files are read as they are.")
+        damage.append(f"There is no {METADATA}: the files are read without metadata.")
         return []
     from tftool.recordings.rosbag2.format import read_metadata
 
@@ -132,7 +132,9 @@ def _listed(folder: Path, damage: list[str]) -> list[str]:
     except (OSError, ValueError, KeyError, TypeError) as error:
         why = getattr(error, "strerror", None) or str(error) or type(error).__name__
         first = why.splitlines()[0]
-        damage.append(f"Its {METADATA} cannot be read ({first}): the files are read as they are.")
+        damage.append(
+            f"The {METADATA} cannot be read ({first}): the files are read without metadata."
+        )
         return []
 
 
@@ -201,7 +203,7 @@ def unpack_file(path: Path, target: Path) -> str:
             except zstandard().ZstdError as error:
                 if not done:
                     raise InputError(f"'{path}' is damaged zstd data ({error}).") from error
-                return f"Its zstd data is damaged after byte {done} ({error})."
+                return f"The zstd data is damaged after byte {done} ({error})."
             if not piece:
                 if not done:
                     raise InputError(

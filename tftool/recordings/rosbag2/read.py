@@ -362,7 +362,7 @@ class Sqlite:
             kind, encoding, text = map(str, row)
             left -= len(text)
             if left < 0:
-                self.damage.append("The definitions of its types are too long: some are left out.")
+                self.damage.append("The definitions of types are too long: some are left out.")
                 break
             if text:
                 found[kind] = encoding, text
@@ -469,7 +469,7 @@ class Sqlite:
         return last if isinstance(last, int) else 0
 
     def _note(self, reason: object) -> None:
-        self._tell(f"A part of its messages cannot be read ({reason}).")
+        self._tell(f"A part of the messages cannot be read ({reason}).")
 
     def _tell(self, damage: str) -> None:
         if damage not in self.damage:
