@@ -713,8 +713,8 @@ class Buffer(Door):
             time: As in `lookup_transform`; a request for time 0 never gets False.
 
         Returns:
-            0 if the transform is available now, and NEVER if it cannot become available any more;
-            in both cases `callback` is never called. Else a handle for `cancel`.
+            0 if the transform is available now, NEVER if it cannot become available any more, else
+            a handle for `cancel`. With 0 and NEVER, `callback` is never called.
         """
         target_frame, source_frame = tree.plain(target_frame), tree.plain(source_frame)
         return self._requests.add(callback, (target_frame, source_frame, whole(time)))
@@ -782,7 +782,7 @@ class Buffer(Door):
         return {self._tree.frames[one].name for one in above}
 
     def rivals(self, frame: str) -> tuple[str, ...]:
-        """Return the publishers that alternately publish a frame; empty if there is only one.
+        """Return the publishers that alternately publish a frame; empty for a single publisher.
 
         A publisher that replaced another publisher once does not count as a rival.
         """

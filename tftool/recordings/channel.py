@@ -52,8 +52,8 @@ class Offers:
     """Quality of service (QoS) that the publishers of a topic offered, as far as recorded.
 
     Attributes:
-        durability: "transient_local" if a publisher offers that, else "volatile"; "" if unknown.
-        reliability: "reliable" if a publisher offers that, else "best_effort"; "" if unknown.
+        durability: Strongest offered durability, "transient_local" or "volatile"; "" if unknown.
+        reliability: Strongest offered reliability, "reliable" or "best_effort"; "" if unknown.
         count: Number of publishers whose QoS was recorded.
     """
 

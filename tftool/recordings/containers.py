@@ -81,7 +81,7 @@ class ContainerFormat:
 
         Args:
             path: Path of the file.
-            style: `style` of the reader of the input, if the input has the same format; else empty.
+            style: Attribute `style` of the input's reader; empty if the input has another format.
             profile: MCAP profile to write if `style` has none: "ros1" or "ros2".
 
         Raises:

@@ -55,8 +55,8 @@ class Publisher:
         topic: Name of the topic.
         node: Name of the publishing node, such as "/robot_state_publisher"; "" if not recorded. ROS
             2 never records node names.
-        durability: "transient_local" if late subscribers get the last messages, as with ROS 1's
-            latching; else "volatile"; "" if not recorded.
+        durability: "transient_local" (ROS 1: latched) or "volatile"; "" if not recorded. With
+            "transient_local", late subscribers get the last messages.
         reliability: "reliable" or "best_effort"; "" if not recorded.
         offers: Number of publishers whose QoS was recorded for the topic.
     """

@@ -473,7 +473,7 @@ def _recordings(
             elif (entry / METADATA).exists():
                 kind = Kind.ROSBAG2
         except PermissionError as error:
-            # It may be a recording: code that opens it will report that it cannot be read.
+            # The entry may be a recording: opening the entry later will report the error.
             found.append(entry)
             refused = refused or error
             continue

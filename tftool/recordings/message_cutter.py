@@ -87,7 +87,7 @@ class Cutter:
         self._cut_first(joined, np.concatenate([numbers for _, numbers in waiting]))
 
     def _cut_first(self, batch: Batch, numbers: Indexes) -> None:
-        """Decode messages; if there may be too many edges, keep the edges that appear first."""
+        """Decode messages; if the table cannot have all edges, use the edges that appear first."""
         # Even with transforms of minimum size, there cannot be too many new edges.
         if int(batch.lengths.sum()) // SMALLEST <= self._table.spare:
             self._cut(batch, numbers)

@@ -1,9 +1,9 @@
 """Parser of robot descriptions in URDF, which reports all mistakes with line and column.
 
-The rules are those of `urdfdom`, ROS's own reader: namespaces and unknown elements are ignored; a
-missing origin is zero, a missing axis is the x axis; rpy rotates about fixed axes. In addition,
-this parser refuses a document type (it could expand without bound), numbers that are not finite,
-and an axis of length zero on a movable joint.
+The rules are those of `urdfdom`, ROS's own reader. Namespaces and unknown elements are ignored. A
+missing origin is zero, and a missing axis is the x axis. The angles rpy rotate about fixed axes. In
+addition, this parser refuses a document type (it could expand without bound), numbers that are not
+finite, and an axis of length zero on a movable joint.
 """
 
 import contextlib

@@ -63,8 +63,8 @@ class Intervals:
         directions: C of the arcs, shape (k, 4).
         endless: Whether the position of some sample contains an infinite number.
         row_by_row: Whether there is one interval per requested time, in the same order.
-        terms: Number of terms of the series of tan(x)/x that the largest θ needs; 0 if above the
-            limit.
+        terms: Number of terms of the series of tan(x)/x for the largest θ; 0 if the series would be
+            too long.
     """
 
     __slots__ = (

@@ -349,7 +349,7 @@ class _Batch:
 
 
 def _steady_path(tree: FrameTree, target: int, source: int) -> Path | None:
-    """Return the path between two frames if it is the same at all times; else None."""
+    """Return the path between two frames; None if the path depends on the time."""
     walk = tree.walk(target, source, 0)
     if walk.ended != ARRIVED or not tree.is_steady(walk):
         return None

@@ -149,7 +149,7 @@ class StaticHeads:
                 continue
             child = stripped(one.row.child)
             held = chosen.get(child)
-            # Use the last one before the file's end, else the first one after it.
+            # Use the last transform before the file's end, else the first transform after the end.
             if held is None or one.log_time <= end or held.log_time > end >= one.log_time:
                 chosen[child] = one
         groups: dict[tuple[int, int], list[_Static]] = {}

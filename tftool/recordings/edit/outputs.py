@@ -91,7 +91,7 @@ class EditedFile:
         self._kinds: dict[Channel, Kinds] = {}
         self._format = container_named(container)
         self.writer = self._opened(tape)
-        # A writer of chunks can copy them; a database is written row by row.
+        # Only a writer of chunks can copy chunks; a database is written row by row.
         self._chunks = self.writer if hasattr(self.writer, "copy_chunk") else None
         if self._chunks is not None:
             self._chunks.first_free = first_free

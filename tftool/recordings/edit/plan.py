@@ -41,7 +41,7 @@ class EditedInput:
         paths: Paths of the files.
         is_folder: Whether the input is a rosbag2 folder.
         metadata: Contents of the folder's metadata.yaml.
-        mode: "file" or "message" if rosbag2 compressed whole files or single messages; else "".
+        mode: rosbag2's compression mode: "file" or "message"; "" without compression.
         damage: Sentences about damage of the folder.
         notes: Other sentences about the folder.
     """

@@ -113,8 +113,8 @@ class Kinds:
             which: Indices of the channel's messages.
 
         Returns:
-            A list of kinds, each with the indices and the bytes (one row per message) of its
-            messages; and the indices of messages of no kind, which must be changed one by one.
+            First, a list of kinds, each with the indices and the bytes (one row per message) of its
+            messages. Second, the indices of all other messages, which must be changed one by one.
         """
         found, rest = [], []
         for length in np.unique(table.lengths[which]).tolist():

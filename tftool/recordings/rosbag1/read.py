@@ -175,7 +175,7 @@ class Rosbag1(ChunkedReader):
             except FAULTS:
                 break
             code, end = header.get(b"op"), data + length
-            # Bytes that are no record: the next record cannot be found either.
+            # These bytes are not a record, so the next record cannot be found either.
             if code not in (BAG, INDEX, CHUNK, CHUNK_INFO, CONNECTION):
                 break
             try:
@@ -216,7 +216,7 @@ class Rosbag1(ChunkedReader):
         chunk.method = header[b"compression"].decode("ascii", "replace")
         is_open = not length and not chunk.size and not self._infos
         if is_open and chunk.method == "none":
-            # rosbag writes the sizes when it closes a chunk: this one goes on to the file's end.
+            # rosbag writes the sizes when it closes a chunk: an open chunk extends to the end.
             length = chunk.size = self.size - data
         chunk.cut = is_open or data + length > self.size
         chunk.place, chunk.packed = data, min(length, self.size - data)

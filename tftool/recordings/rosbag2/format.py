@@ -51,8 +51,8 @@ def metadata_text(
         files: Facts about the files, in order.
         topics: Number of messages of each channel.
         compression: Format and mode of rosbag2's compression of files or messages.
-        old: Metadata of the original recording, whose version, and other facts that do not follow
-            from the files, are kept; None for a new recording.
+        old: Metadata of the original recording; None for a new recording. The version, and all
+            facts that do not follow from the files, are copied from `old`.
     """
     version = int((old or {}).get("version", VERSION))
     filled = [one for one in files if one.count]
