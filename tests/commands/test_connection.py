@@ -112,8 +112,13 @@ def test_a_zenoh_configuration_that_is_none_is_a_sentence(tftool):
     [
         ("own.key", "own.key", "ca.pem", "'{}/own.key' contains no certificate in PEM format."),
         ("own.pem", "own.key", "ca.key", "'{}/ca.key' contains no certificate in PEM format."),
-        ("own.pem", "own.ext", "ca.pem", "'{}/own.ext' holds no private key in PEM"),
-        ("own.pem", "locked.key", "ca.pem", "'{}/locked.key' holds no private key in PEM, or one"),
+        ("own.pem", "own.ext", "ca.pem", "'{}/own.ext' contains no private key in PEM"),
+        (
+            "own.pem",
+            "locked.key",
+            "ca.pem",
+            "'{}/locked.key' contains no private key in PEM, or a key",
+        ),
         ("own.pem", "ca.key", "ca.pem", "'{0}/ca.key' is not the key of the certificate '{0}/own"),
     ],
 )

@@ -122,7 +122,7 @@ def test_a_scenario_may_expect_nothing(tftool, tmp_path):
 
     assert result.status == 0
     assert result.out.splitlines()[0] == "quiet"
-    assert "It expects nothing up to here." in result.out
+    assert "It has no expectations up to this time." in result.out
 
 
 def test_the_leader_can_be_another_frame(tftool):

@@ -66,7 +66,7 @@ def test_two_nodes_of_one_name_that_send_transforms_are_told():
         kind = "tf2_msgs/msg/TFMessage"
         world.endpoints.add(Endpoint(PUBLISHER, "talker", "tf", kind, Quality()))
 
-    assert twins(world) == ["2 nodes called 'talker' send transforms: has it been started twice?"]
+    assert twins(world) == ["2 nodes called 'talker' send transforms: was the node started twice?"]
 
 
 def test_echo_says_it_once(capsys):

@@ -544,7 +544,7 @@ LOOKUP = "lookup: {target: a, source: b}"
 @pytest.mark.parametrize(
     ("entry", "wrong"),
     [
-        ("{trees: 1}", "when must it hold?; write one of at: 2 s, by: 20 s, "),
+        ("{trees: 1}", "the time is missing; write one of at: 2 s, by: 20 s, "),
         ("{at: 1 s, by: 1 s, trees: 1}", "at, by exclude each other; write one of at: 2 s, "),
         (
             "{at: 1 s, every: 1 s, trees: 1}",
@@ -596,11 +596,11 @@ LOOKUP = "lookup: {target: a, source: b}"
         ),
         (
             "{at: 1 s, lookup: {target: a, source: b, source_time: now}}",
-            "two times need a fixed frame to go through: 'fixed'",
+            "two times need a fixed frame: give 'fixed'",
         ),
         (
             "{at: 1 s, distance: {from: a, to: b, time: now, fixed: w}, is: 0}",
-            "through a fixed frame there are two times, not one 'time'",
+            "'fixed' needs two times, not one 'time'",
         ),
         (
             "{at: 1 s, lookup: {target: a, source: b, time: lately}}",

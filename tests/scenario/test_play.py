@@ -244,8 +244,14 @@ def test_services_are_called():
         ("teleport: {turtle: bob, x: 1, y: 1}", "no node serves 'bob/teleport_absolute'"),
         ("rotate: {turtle: bob, theta: 1}", "no node serves the action 'bob/rotate_absolute'"),
         ("drive: {turtle: bob, linear: 1}, for: 1 s", "nothing subscribes to 'bob/cmd_vel'"),
-        ("broadcast: {parent: a, child: a}", "the buffer refused it; the log says why"),
-        ("static: {parent: a, child: a}", "the buffer refused it; the log says why"),
+        (
+            "broadcast: {parent: a, child: a}",
+            "the buffer rejected the transform: see the log for the reason",
+        ),
+        (
+            "static: {parent: a, child: a}",
+            "the buffer rejected the transform: see the log for the reason",
+        ),
     ],
 )
 def test_a_refused_step_fails_the_scenario_unless_it_is_to_fail(step, found):

@@ -274,7 +274,7 @@ def test_refused_samples_of_ever_new_frames_are_said_a_few_times_and_counted():
     told = [one.text for one in world.log.records]
     assert len(told) < 30
     assert "TF_NAN_INPUT" in told[0]
-    assert "(1000 more like it, of other names)" in told[-1]
+    assert "(1000 similar messages with other names)" in told[-1]
 
 
 def test_a_listener_that_fails_at_every_message_is_said_once_and_counted():

@@ -262,7 +262,7 @@ class LookupException(TransformException):
     def remedy(self) -> str:
         """Return a sentence with similar frame names, or with the number of known frames."""
         if self.looped:
-            return "A frame is below one of its own children: check who publishes the links named."
+            return "A frame is below one of its own children: check which nodes publish the links."
         if self.frame is None:
             return ""
         # Computed only for printing: a waiting program may create this error thousands of times.

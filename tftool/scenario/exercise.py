@@ -97,7 +97,7 @@ class Exercise:
         for one in self.programs:
             if one.node and one.node not in names:
                 hint = did_you_mean(one.node, names)
-                there = ", ".join(names) or "none left to take the place of"
+                there = ", ".join(names) or "none that can be replaced"
                 raise UsageError(
                     f"scenario '{visible(scenario.name)}' has no node "
                     f"'{visible(one.node)}'{hint} (it has {visible(there)})"

@@ -314,7 +314,7 @@ def tagged(
     Returns:
         The key of the class, an object of the class, and the values of the other keys.
     """
-    entries = reading.entries(node, f"{listed(common)} and what it is about")
+    entries = reading.entries(node, f"{listed(common)} and a subject")
     tag = _tag(node, reading, what, kinds, common, beside)
     kind = kinds[tag]
     parts = parts_of(kind)

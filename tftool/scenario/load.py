@@ -356,7 +356,7 @@ class _ScenarioReader:
         }
         said = [key for key in _WHEN if key in reading.entries(node, listed(_WHEN))]
         if len(said) != 1:
-            wrong = f"{listed(said)} exclude each other" if said else "when must it hold?"
+            wrong = f"{listed(said)} exclude each other" if said else "the time is missing"
             reading.note(
                 node, f"{wrong}; write one of at: 2 s, by: 20 s, during: [1 s, 5 s], always: true"
             )

@@ -140,9 +140,9 @@ class Lookup(Subject):
     def problem(self) -> str:
         """Text about fields that contradict each other; "" without a contradiction."""
         if self.fixed is None and (self.target_time or self.source_time):
-            return "two times need a fixed frame to go through: 'fixed'"
+            return "two times need a fixed frame: give 'fixed'"
         if self.fixed is not None and self.time is not None:
-            return "through a fixed frame there are two times, not one 'time'"
+            return "'fixed' needs two times, not one 'time'"
         return ""
 
     def answer(self, scene: ScenarioWorld) -> Transform:
@@ -219,7 +219,7 @@ class Distance(Between):
 
 @declare(SUBJECTS, "bearing", form=range_form(ANGLE))
 class Bearing(Between):
-    """Question for the direction in which frame `start` sees the origin of frame `end`."""
+    """Question for the direction from frame `start` to the origin of frame `end`."""
 
     def answer(self, scene: ScenarioWorld) -> float:
         """Return the direction in radians from the x axis of `start`, counter-clockwise."""
@@ -251,7 +251,7 @@ class PointOf(Subject):
 
 
 class Motion(Subject):
-    """Base of questions about a frame's motion in a frame `target`, averaged over a duration."""
+    """Base of questions about a frame's motion in frame `target`, averaged over a duration."""
 
     frame: str = reads(values.frame, key="of")
     target: str = reads(values.frame, key="in")

@@ -102,14 +102,14 @@ class Script(Node):
             ) from None
 
     async def wait_until(self, stamp: Stamp) -> None:
-        """Wait until the time `stamp`, and then for this node's turn in the order of the nodes."""
+        """Wait until `stamp`, then until the clock wakes this node in its phase and rank."""
         await self.clock.sleep_until(stamp, self.phase, self.rank)
 
 
 REFRESH: Duration = seconds(0.5)
 """Nanoseconds between two commands of a drive; a turtle stops a second after the last one."""
 
-_REFUSED = "the buffer refused it; the log says why"
+_REFUSED = "the buffer rejected the transform: see the log for the reason"
 
 
 ACTIONS: Final[dict[str, type["Action"]]] = {}
@@ -120,7 +120,7 @@ class Action(Declared):
     """Base of actions in a script.
 
     Attributes:
-        key: Key in a scenario.
+        key: Key of the action in a scenario, such as "spawn".
     """
 
     key: ClassVar[str]

@@ -99,7 +99,7 @@ def written(played: Played) -> str:
     if verdict.failure:
         lines.append(f"It ended early: {visible(verdict.failure)}")
     if not reached:
-        lines.append("It expects nothing up to here.")
+        lines.append("It has no expectations up to this time.")
         return "\n".join(lines)
     held = sum(outcome.ok for outcome in reached)
     written_for = _settings(played.defaults, changed)

@@ -136,7 +136,9 @@ class ActionParts:
         """Return whether one more goal may start; ended goals are dropped first to make room."""
         if self._make_way(len(self._undecided)) <= 0:
             return True
-        self._warn(f"'{self._name}': {KEPT} goals are under way; until one ends, more are refused.")
+        self._warn(
+            f"'{self._name}': {KEPT} goals run, the most allowed: more are refused until one ends."
+        )
         return False
 
     def _make_way(self, others: int) -> int:

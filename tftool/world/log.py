@@ -37,7 +37,7 @@ class LogRecord:
     program: str = ""
 
     def __str__(self) -> str:
-        """Return the message in the format of ROS 2's console; slashes in the name are dots."""
+        """Return the message in the format of ROS 2's console, with dots for slashes in names."""
         second, rest = divmod(self.stamp, NANOSECONDS)
         logger = self.node.replace("/", ".")
         return f"[{self.level}] [{second}.{rest:09d}] [{logger}]: {self.text}"
@@ -54,7 +54,7 @@ class Repeats:
         self._counts: dict[str, int] = {}
 
     def said(self, kind: str, text: str) -> str:
-        """Count a message; return its text if it is to be logged, else "".
+        """Count a message; return the text if the message should be logged, else "".
 
         Args:
             kind: Part that similar messages have in common.
@@ -68,9 +68,9 @@ class Repeats:
             return ""
         if others:
             return (
-                f"{text} ({count} more like it, of other names)"
+                f"{text} ({count} similar messages with other names)"
                 if count > 1
-                else (f"{text} (others like it are counted)")
+                else (f"{text} (similar messages are counted)")
             )
         return text if count == 1 else f"{text} ({count} times so far)"
 

@@ -1,8 +1,8 @@
 """Memory limit for the transforms of a live world; above it, the oldest samples are dropped.
 
 A buffer, like tf2's, drops samples only by age. So a publisher with a very high rate, or with
-stamps a nanosecond apart, could fill the memory of every subscriber. Recordings end, so they have
-no limit.
+stamps a nanosecond apart, could fill the memory of every subscriber. Buffers of recordings have no
+limit, because a recording has an end.
 """
 
 import os
@@ -53,7 +53,7 @@ class MemoryBound:
     __slots__ = ("_buffer", "_said", "_say", "_unseen", "limit")
 
     def __init__(self, buffer: Buffer, say: Say, limit: int) -> None:
-        """Watch a buffer; call `say` once for each frame whose history is shortened."""
+        """Limit a buffer; call `say` once for each frame that loses samples."""
         self.limit = limit
         self._buffer = buffer
         self._say = say
@@ -75,5 +75,5 @@ class MemoryBound:
             self._say(
                 f"'{cut.child}' from '{cut.authority}' had {cut.samples} samples in memory, and "
                 f"the transforms of a session may take {self.limit >> 20} MB: only the newest "
-                f"{cut.kept} are kept. Have them sent less often, or allow more: {VARIABLE}=…"
+                f"{cut.kept} are kept. Lower the publishing rate, or raise the limit: {VARIABLE}=…"
             )

@@ -41,7 +41,7 @@ _LEAVE_SCREEN = (
 class Overdue(BaseException):
     """Exception raised inside a node that blocks the loop beyond the end of the run.
 
-    The base is not `Exception`, because a node may catch every `Exception`.
+    The base class is `BaseException`, because a node may catch every `Exception`.
     """
 
 
@@ -97,7 +97,7 @@ class Stopper:
             self._begin()
 
     def limit(self, deadline: float | None, standstill: float | None = None) -> None:
-        """Set the time at which the run must end; two None remove both limits.
+        """Set the time at which the run must end; `limit(None)` removes all limits.
 
         Args:
             deadline: Real seconds from now until the end; None for no end in real time.
@@ -186,7 +186,7 @@ class Stopper:
         if self._raised_at is not None:
             if now >= self._raised_at + PATIENCE:
                 for name in self._not_returned():
-                    _say(f"{name} has not returned after the end of the run, which ends it")
+                    _say(f"{name} has not returned after the end of the run: ending the process")
                 self._kill(FAILED)
             return
         # A call is sent to the loop: if the loop makes it, no node blocks the loop.
@@ -252,7 +252,7 @@ def leave_screen() -> None:
 
 
 def node_task_name(name: str) -> str:
-    """Return the name of a node's tasks, by which the stopper recognises them."""
+    """Return the name of a node's tasks, with which the stopper finds the node of a task."""
     return f"node '{name}'"
 
 

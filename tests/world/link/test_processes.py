@@ -198,7 +198,7 @@ def test_a_folder_that_cannot_be_used_leaves_hosting_alone(session_dir, monkeypa
     alone = run_here("echo", "turtle2", "turtle1", "--once")
 
     assert alone.returncode == 0
-    assert "No other process can join this world: no session can meet in" in alone.stderr
+    assert "No other process can join this world: no session can use" in alone.stderr
 
 
 FULL = """

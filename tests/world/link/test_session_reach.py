@@ -107,7 +107,7 @@ def test_a_peer_that_talks_in_another_domain_is_said_once(session_dir, monkeypat
                 assert gate_world == {3}
                 assert texts(world) == [
                     "Another process runs in domain 3; this process runs in domain 0. "
-                    "Neither receives the other. "
+                    "Neither process receives messages of the other. "
                     "To join: --domain 3."
                 ]
 
@@ -168,7 +168,7 @@ def test_over_tls_only_who_has_a_certificate_is_let_in(session_dir, monkeypatch,
             stranger = certificates(tmp_path / "stranger")
             with pytest.raises(LinkError, match="no process answers at tls/localhost") as refusal:
                 Link(Options("echo", reach=ZenohReach(connect=endpoint, certificates=stranger)))
-            assert f"the other side's by {stranger.authority}" in str(refusal.value)
+            assert f"certificate must be signed by {stranger.authority}" in str(refusal.value)
             plain = (endpoint[0].replace("tls/", "tcp/"),)
             with pytest.raises(LinkError, match="listens with tls/ does not answer tcp/"):
                 Link(Options("echo", reach=ZenohReach(connect=plain)))

@@ -187,7 +187,10 @@ def _labelled(text: str, degrees: bool) -> Written | None:
         written = Written(Transform(rotation=turn), False, "labelled roll pitch yaw")
     notes = written.notes
     if max(len(turns), len(angles)) > 1:
-        notes = (*notes, f"There are {max(len(turns), len(angles))} of them: this is the first.")
+        notes = (
+            *notes,
+            f"The text has {max(len(turns), len(angles))} rotations: this is the first.",
+        )
     pose = Transform(translation, written.transform.rotation)
     return Written(pose, bool(places), written.form, notes)
 
@@ -327,8 +330,8 @@ def _matrix(numbers: Sequence[float]) -> Written:
     notes: tuple[str, ...] = ()
     if apart > 1e-6:
         notes = (
-            f"The matrix is off a rotation by {apart:.2g}, as rounding makes it: the nearest "
-            "rotation was taken.",
+            f"The matrix differs from a rotation by {apart:.2g}, probably by rounding: the nearest "
+            "rotation is used.",
         )
     turn = quaternion_from_matrix(near)
     name = f"{len(rows)}×{width} matrix"

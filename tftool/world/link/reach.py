@@ -1,4 +1,4 @@
-"""Base of a middleware's declaration: its options, their contradictions, text for messages.
+"""Base class with which a middleware declares its command-line options and addresses.
 
 A middleware derives a class from `Reach` in its folder, as in `zenoh/reach.py`; one line in
 `link_options.MIDDLEWARES` adds it. Commands do not name middlewares.
@@ -33,42 +33,43 @@ class LinkOption:
 class Reach:
     """Networks and processes that a middleware may use, beyond this machine's own processes.
 
-    Subclasses are frozen dataclasses. Without arguments, an object opens nothing to the outside.
+    Subclasses are frozen dataclasses. An object created without arguments opens no connection to
+    other machines.
     """
 
     __slots__ = ()
 
     OPTIONS: ClassVar[Mapping[str, LinkOption]] = {}
-    """Options of the middleware, by the names of their parameters."""
+    """Command-line options of the middleware, by parameter name."""
 
     FLAGS: ClassVar[tuple[str, ...]] = ()
-    """Options that open a connection to the outside, as sentences name them."""
+    """Options that open a connection to other machines, as text for messages."""
 
     ALONE: ClassVar[str] = ""
-    """Sentence on why its options cannot be combined with another middleware's."""
+    """Sentence about the reason why these options exclude those of another middleware."""
 
     is_robots: ClassVar[bool] = False
-    """Whether the other processes are a robot's nodes: there, commands that only read send nothing,
+    """Whether the other processes are a robot's nodes. Commands that only read then send nothing,
     and wait longer for static transforms."""
 
     only_reads: ClassVar[bool] = False
     """Whether the middleware can only read, not publish."""
 
     SCHEMES: ClassVar[tuple[str, ...]] = ()
-    """Beginnings of the addresses of its sessions, in lower case: "ws://"."""
+    """First characters of the addresses of sessions, in lower case, such as "ws://"."""
 
     @classmethod
     def at(cls, address: str) -> "Reach":
-        """Return the reach of the session at an address; None for a word that is no address.
+        """Create the `Reach` of the session at an address.
 
         Raises:
-            UsageError: If the word begins like an address, but is malformed.
+            UsageError: If the address is malformed.
         """
         raise NotImplementedError
 
     @classmethod
     def read(cls, given: Mapping[str, Any]) -> "Reach":
-        """Return the reach that the middleware's options describe.
+        """Create a `Reach` from the given values of the middleware's options.
 
         Raises:
             UsageError: If options contradict each other.
@@ -82,7 +83,7 @@ class Reach:
         return True
 
     def awaits_others(self, *, hosts: bool) -> bool:
-        """Return whether the session is always in another process, so this process never hosts it.
+        """Return whether another process always hosts the session, and this process never does.
 
         Args:
             hosts: Whether the command runs a world itself if no other process runs one.
@@ -91,20 +92,20 @@ class Reach:
 
     @staticmethod
     def has_members(domain: int) -> bool:
-        """Return whether there is a local process to join; the check connects to none."""
+        """Return whether a local process exists that this process can join, without connecting."""
         return False
 
     @staticmethod
     def frames_known(domain: int) -> list[str]:
-        """Return the names of the frames that this machine's processes have, without connecting."""
+        """Return the names of the frames of this machine's processes, without connecting."""
         return []
 
     def place(self, domain: int) -> str:
-        """Describe where the other processes are; "" for this machine."""
+        """Return where the other processes are, as text for messages; "" for this machine."""
         raise NotImplementedError
 
     def join(self, options: "Options") -> "Middleware":
-        """Join a session; the middleware's library is imported here.
+        """Import the middleware's library, and join a session.
 
         Raises:
             LinkError: If the session cannot be joined.

@@ -41,7 +41,7 @@ _PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*", re.ASCI
 
 
 class Link(LinkContext):
-    """Connection of a process to a session, which shares its world's topics, services and actions.
+    """Connection of a process to a session, through which the process shares its world.
 
     Attributes:
         departures: Number of processes that published transforms and have left the session.
@@ -55,7 +55,8 @@ class Link(LinkContext):
         decide at the same time whether to host.
 
         Raises:
-            LinkError: If the session's folder is unusable, or the middleware is missing or refuses.
+            LinkError: If the session's folder is unusable, or the middleware is missing or raises
+                an error.
         """
         super().__init__(options, options.reach.join(options))
         self._nodes: dict[str, Callable[[], None]] = {}
@@ -75,7 +76,7 @@ class Link(LinkContext):
         self._told = 0
 
     def settle(self) -> None:
-        """Let other local processes join from now on."""
+        """Allow other local processes to join from now on."""
         self.middleware.settle()
 
     # Taking part
@@ -299,7 +300,7 @@ class Link(LinkContext):
             )
 
     def _is_offered(self, name: str, *, remote: bool) -> bool:
-        """Return whether this process serves a service or action (if `remote`: another process)."""
+        """Return whether this process (if `remote`, another process) serves a service or action."""
         offers = (self.world.services().get(name), self.world.actions().get(name))
         return any(offer is not None and offer.is_remote is remote for offer in offers)
 
@@ -318,9 +319,9 @@ class Link(LinkContext):
     # Keeping up with the others
 
     def graph_changed(self, found: GraphEntity | Process | None, there: bool) -> None:
-        """Handle an entity that was added (`there` is true) or removed (false).
+        """Handle an entity that was added (if `there`) or removed.
 
-        `found` is None if only the existence of another ROS domain was noticed.
+        `found` is None if the change is only that another ROS domain was noticed.
         """
         if found is None:
             self._mention_foreign_domains()
@@ -361,7 +362,7 @@ class Link(LinkContext):
         self.world.log.warn(NAME, f"{process}{hosted} has left; its last transforms stay.")
 
     def _count_departure(self, session: str) -> None:
-        """Count a process as left when its announcement and its publishers of tf are gone.
+        """Count a process as departed when its announcement and its publishers of tf are gone.
 
         Both conditions are needed: a node may leave a process that stays, and programs other than
         tftool announce no process.
@@ -375,7 +376,8 @@ class Link(LinkContext):
             self.say_once(
                 f"domain {domain}",
                 f"Another process runs in domain {domain}; this process runs in domain "
-                f"{self.options.domain}. Neither receives the other. To join: --domain {domain}.",
+                f"{self.options.domain}. Neither process receives messages of the other. "
+                f"To join: --domain {domain}.",
             )
 
 

@@ -52,7 +52,7 @@ class Session:
         live: Coroutine function that runs the world until a time, or for ever.
         head_start: Nanoseconds to simulate before the command's work begins.
         duration: Duration of the scenario in nanoseconds; None if unlimited.
-        link: Connection to other processes; None if there is none.
+        link: Connection to other processes; None without a connection.
         tell: Function called with every log message while the world runs.
     """
 
@@ -66,11 +66,11 @@ class Session:
     tell: "Callable[[LogRecord], object]" = _keep_silent
 
     def departures(self) -> int:
-        """Return the number of processes with transforms that have left so far."""
+        """Return the number of processes that published transforms and have left the session."""
         return 0 if self.link is None else self.link.departures
 
     def abandon(self) -> None:
-        """Leave a session that was joined but is not used."""
+        """Leave a session that was joined but will not be used."""
         if self.link is not None:
             self.link.close()
 
@@ -106,7 +106,7 @@ class Session:
         await self.live(None)
 
     async def lasting(self, duration: Duration | None) -> None:
-        """Wait for a duration in nanoseconds; for ever if the duration is None."""
+        """Wait for a duration in nanoseconds; wait for ever if `duration` is None."""
         await lasting(self.world.clock, duration)
 
     async def listened(self, duration: Duration) -> None:
@@ -130,7 +130,7 @@ class Session:
 
 
 async def lasting(clock: Clock, duration: Duration | None) -> None:
-    """Wait for nanoseconds on the clock `pace_of(clock)`; for ever if `duration` is None."""
+    """Wait for nanoseconds on the clock `pace_of(clock)`; wait for ever if `duration` is None."""
     if duration is None:
         await asyncio.get_running_loop().create_future()
         return
@@ -151,7 +151,7 @@ def joined_session(
     cache_time: Duration | None = None,
     tell: "Callable[[LogRecord], object]" = _keep_silent,
 ) -> Session:
-    """Return a world that receives the frames of a session that was joined.
+    """Return a `Session` whose world receives the frames of a running session.
 
     Args:
         link: Connection to the session.
@@ -187,7 +187,7 @@ def twins(world: World) -> list[str]:
     """Return a warning for each node name under which several nodes publish transforms."""
     names = Counter(end.node for end in world.endpoints.of("tf", PUBLISHER))
     return [
-        f"{count} nodes called '{visible(name)}' send transforms: has it been started twice?"
+        f"{count} nodes called '{visible(name)}' send transforms: was the node started twice?"
         for name, count in sorted(names.items())
         if count > 1
     ]
@@ -220,7 +220,7 @@ def shared(link: "Link | None", world: World, role: str = "host") -> Iterator[No
 def lived(
     world: World, link: "Link | None", role: str
 ) -> Callable[[Stamp | None], Awaitable[None]]:
-    """Return a coroutine function that runs a shared world until a time, or for ever."""
+    """Return a coroutine function that shares a world and runs it until a time, or for ever."""
 
     async def alive(until: Stamp | None) -> None:
         with shared(link, world, role):

@@ -321,14 +321,14 @@ class TransformBridge:
                 "clock ahead",
                 f"'{authority}' stamps its transforms {as_seconds(ahead):.1f} s after this "
                 "machine's clock: this clock is slow, or the other clock is fast (demo --rate). "
-                "Ages, and lookups at the present or some seconds ago, are wrong by as much.",
+                "Ages, and lookups at recent times, are wrong by the same amount.",
             )
             return
         self._link.say_once(
             f"clock {authority}",
             f"'{authority}' stamps its transforms {as_seconds(abs(ahead)) / as_seconds(YEAR):.1f} "
             f"years {'after' if ahead > 0 else 'before'} this machine's clock: ages and waits "
-            "mean little until both clocks agree (or one of them is simulated).",
+            "are useless until both clocks agree (or one clock is simulated).",
         )
 
 
@@ -338,7 +338,7 @@ class StaticBridge(TransformBridge):
     quality = TF_STATIC
 
     def _dismiss(self) -> None:
-        """Close no publisher: late subscribers also get static transforms of nodes that left."""
+        """Do nothing: late subscribers also get static transforms of nodes that have left."""
 
     def _arrived(self, message: Arrived) -> None:
         super()._arrived(message)

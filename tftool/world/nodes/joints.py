@@ -61,7 +61,7 @@ def joint_state(stamp: Stamp, positions: Mapping[str, float]) -> Any:
 
 
 class RobotStatePublisher(Node):
-    """Node that broadcasts a robot's frames: fixed joints at once, other joints from joint states.
+    """Node that broadcasts a robot's frames: fixed joints at the start, others from joint states.
 
     The node works like ROS 2's node of the same name. A message with unequal numbers of names and
     positions is ignored. Only joints that a message names move, and joints that mimic a named
@@ -128,7 +128,7 @@ class RobotStatePublisher(Node):
             if joint.type in ("floating", "planar"):
                 self._tell_once(
                     f"joint '{joint.name}' is {joint.type}: another node has to broadcast "
-                    f"'{joint.child}', else the tree falls apart there"
+                    f"'{joint.child}', otherwise the tree is split there"
                 )
         still = [
             one
@@ -250,7 +250,7 @@ class JointStatePublisher(Node):
         """Set the position of a joint, and of the joints that mimic it.
 
         Raises:
-            UsageError: If there is no such joint, or it does not move.
+            UsageError: If there is no such joint, or the joint cannot move.
         """
         if self.robot is not None:
             self.robot.positions({joint: position})

@@ -71,7 +71,7 @@ def test_two_robots_of_equal_names_are_told_apart_and_said(domain):
                 return twins(world)
 
     assert asyncio.run(scene()) == [
-        "2 nodes called 'wheels' send transforms: has it been started twice?"
+        "2 nodes called 'wheels' send transforms: was the node started twice?"
     ]
 
 

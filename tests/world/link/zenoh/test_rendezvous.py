@@ -133,7 +133,7 @@ def test_a_password_file_that_is_none_is_refused_with_its_folder(home, monkeypat
     (home / "run").chmod(0o700)
     put(folder_ / "members")
 
-    with pytest.raises(LinkError, match=r"no session can meet in .*run/0"):
+    with pytest.raises(LinkError, match=r"no session can use .*run/0"):
         Rendezvous(0, home / "run").enter()
 
 
@@ -252,7 +252,7 @@ def test_a_link_in_place_of_the_folder_is_refused(home):
 def test_a_folder_that_cannot_be_made_is_named_with_the_reason(home):
     (home / "file").write_text("")
 
-    with pytest.raises(LinkError, match=r"no session can meet in .*TFTOOL_SESSION_DIR"):
+    with pytest.raises(LinkError, match=r"no session can use .*TFTOOL_SESSION_DIR"):
         Rendezvous(0, home / "file" / "run").enter()
 
 

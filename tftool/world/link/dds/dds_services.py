@@ -34,8 +34,8 @@ _NUMBER: Final = 16
 _PAUSE: Final = seconds(0.005)
 
 REFUSED: Final = (
-    "it is served over {vendor}, which carries the number of a request where DDS's library for "
-    "Python can neither read nor write it; run the robot with rmw_cyclonedds_cpp or rmw_zenoh_cpp"
+    "it is served over {vendor}, which sends the number of a request in a field that DDS's library "
+    "for Python cannot access: run the robot with rmw_cyclonedds_cpp or rmw_zenoh_cpp"
 )
 
 

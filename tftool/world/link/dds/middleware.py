@@ -342,8 +342,8 @@ class DdsMiddleware(Middleware):
         if all(one.gid != gone.gid for one in self.graph.entities(PUBLISHER, name="tf")):
             self.say_once(
                 f"left {gone.gid.hex()}",
-                f"'{gone.node}' no longer publishes /tf: it has left, or sent no sign of "
-                "life for the ten seconds of its lease. Its last transforms stay.",
+                f"'{gone.node}' no longer publishes /tf: the node has left, or its process sent no "
+                "sign of life for ten seconds, its lease. Its last transforms stay.",
             )
 
     def _compare(self, found: GraphEntity | Process) -> None:
@@ -384,7 +384,7 @@ class _Claim:
 
 
 class _Listening:
-    """Reader of a topic, replaced by a best-effort reader if a publisher is not reliable."""
+    """Reader of a topic, replaced by a best-effort reader if a publisher is best effort."""
 
     def __init__(
         self,
@@ -416,7 +416,7 @@ class _Listening:
             self.reader.close()
 
     def refused(self, policy: int) -> None:
-        """Create the reader again without reliability, if a publisher does not offer it."""
+        """Replace the reader by a best-effort reader if the refused policy is reliability."""
         # Less durability would silently lose earlier messages, and tf2's topics keep their
         # quality.
         if self._is_closed or self.name in ("tf", "tf_static") or policy != _RELIABILITY:

@@ -114,8 +114,8 @@ def network(places: Iterable[str], environment: Mapping[str, str] | None = None)
         peers += [_checked(one) for one in static if one not in peers and not confined]
     elif any(not _is_loopback(one) for one in static):
         told = (
-            f"ROS_STATIC_PEERS names {', '.join(static)}, and --dds alone keeps to the loopback: "
-            f"--dds-on {static[0]} goes there."
+            f"ROS_STATIC_PEERS names {', '.join(static)}, but --dds alone uses only the loopback: "
+            f"--dds-on {static[0]} connects to it."
         )
     if all(_is_loopback(one) for one in (*interfaces, *peers)):
         return Network(told=(told,) if told else ())

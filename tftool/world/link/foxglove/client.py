@@ -233,7 +233,7 @@ class FoxgloveClient:
                 await asyncio.wait_for(self._woken.wait(), pause)
 
     async def _connected(self) -> str:
-        """Connect and read until the connection ends; return the reason to end a sentence with."""
+        """Connect, and read until the connection ends; return the reason for its end."""
         try:
             async with _Direct(
                 self._address,
@@ -421,8 +421,8 @@ def _of_failure(error: Exception) -> str:
     """Return the reason why a connection could not be made, as the end of a sentence."""
     if isinstance(error, ssl.SSLCertVerificationError):
         return (
-            f"its certificate is not trusted: {error.verify_message} (SSL_CERT_FILE=FILE names "
-            "the certificate of one who signed it)"
+            f"its certificate is not trusted: {error.verify_message} (set SSL_CERT_FILE to "
+            "the certificate of the authority that signed it)"
         )
     if isinstance(error, TimeoutError):
         return "it does not answer"
@@ -431,7 +431,7 @@ def _of_failure(error: Exception) -> str:
     if isinstance(error, NegotiationError):
         return _NOT_FOXGLOVE
     if isinstance(error, InvalidMessage):
-        return "what answers there is no web server"
+        return "the program at this address is not a web server"
     if isinstance(error, OSError):
         # asyncio replaces the system's error text, and joins the texts of several addresses.
         found = re.search(r"\[Errno (\d+)\]", str(error))

@@ -64,8 +64,8 @@ class ZenohMiddleware(Middleware):
         two processes decide at the same time whether to host.
 
         Raises:
-            LinkError: If the session's folder cannot be used, zenoh is missing or refuses, or no
-                process responds at the address in `connect`.
+            LinkError: If the session's folder cannot be used, zenoh is missing or raises an error,
+                or no process responds at the address in `connect`.
         """
         self._options = options
         self._reach = reach
@@ -153,7 +153,7 @@ class ZenohMiddleware(Middleware):
             self._place.tell_frames(names)
 
     def settle(self) -> None:
-        """Let other local processes join from now on."""
+        """Allow other local processes to join from now on."""
         if self._place is not None:
             self._place.settle()
 
@@ -278,7 +278,7 @@ class ZenohMiddleware(Middleware):
         return self._numbers
 
     def show(self, key: str) -> Callable[[], None]:
-        """Announce a token, unless read-only; return a function that withdraws the token."""
+        """Announce a token (not if read-only); return a function that withdraws the token."""
         return nothing if self._options.read_only else self.wire.token(key)
 
     def _on_token(self, change: tuple[str, bool]) -> None:
@@ -320,7 +320,7 @@ class ZenohPublisher:
 
 
 class ZenohRequest:
-    """Received request over zenoh, with the number and the client that the response repeats."""
+    """Received request over zenoh, with its number and client id, which the response repeats."""
 
     def __init__(self, query: Query, beside: Attachment) -> None:
         self._query = query
@@ -360,7 +360,7 @@ class ZenohClient:
         return await self._middleware.wire.ask(key, payload, beside, timeout=timeout)
 
     def close(self) -> None:
-        """Do nothing: a client holds nothing between two requests."""
+        """Do nothing, because a client has no resources to release."""
 
 
 def _no_answer_at(reach: ZenohReach) -> str:
@@ -372,9 +372,9 @@ def _no_answer_at(reach: ZenohReach) -> str:
     )
     if reach.certificates is not None and protocols & set(SECURED):
         text += (
-            " Do the certificates fit? Ours must be signed by the authority the other side was "
-            f"given, the other side's by {reach.certificates.authority} and made out to the host "
-            "named here."
+            " Check the certificates: the other side must trust the authority that signed this "
+            "side's certificate. The other side's certificate must be signed by "
+            f"{reach.certificates.authority}, and must name the host."
         )
     if "tcp" in protocols:
         text += " A port that listens with tls/ does not answer tcp/."

@@ -41,7 +41,8 @@ class Certificates:
         """Check the content of each file, because zenoh's own errors do not name the file.
 
         Raises:
-            InputError: If a file is not of its kind, or the key belongs to another certificate.
+            InputError: If a file is not a certificate or key as expected, or the key belongs to
+                another certificate.
         """
         import ssl
 
@@ -69,7 +70,7 @@ class Certificates:
         if reason:
             told = reason.lower().replace("_", " ")
             return f"'{self.certificate}' cannot be used with '{self.key}': {told}."
-        return f"'{self.key}' holds no private key in PEM, or one with a password."
+        return f"'{self.key}' contains no private key in PEM, or a key with a password."
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,7 +121,7 @@ class ZenohReach(Reach):
 
     @classmethod
     def read(cls, given: Mapping[str, Any]) -> "ZenohReach":
-        """Return the reach that the given options describe; see `Reach.read`."""
+        """Create a `ZenohReach` from the given options; see `Reach.read`."""
         listen, connect = tuple(given.get("listen") or ()), tuple(given.get("connect") or ())
         config: Path | None = given.get("zenoh_config")
         if config is not None and (listen or connect):
@@ -148,7 +149,7 @@ class ZenohReach(Reach):
 
     @staticmethod
     def has_members(domain: int) -> bool:
-        """Return whether there is a local process to join; see `Reach.has_members`."""
+        """Return whether a local process exists that this process can join; see `Reach`."""
         # Imported here: sockets and hashes take 10 ms, and most commands do not need this.
         from tftool.world.link.zenoh import rendezvous
 
@@ -156,7 +157,7 @@ class ZenohReach(Reach):
 
     @staticmethod
     def frames_known(domain: int) -> list[str]:
-        """Return the frames of this machine's processes; see `Reach.frames_known`."""
+        """Return the names of the frames of this machine's processes; see `Reach.frames_known`."""
         from tftool.world.link.zenoh import rendezvous
 
         return rendezvous.frames_known(domain)
@@ -186,7 +187,7 @@ def has_port(endpoint: str) -> bool:
 
 
 def _tls(cert: Path | None, key: Path | None, ca: Path | None) -> Certificates | None:
-    """Return the three files of mutual TLS; None if no file is given."""
+    """Return the files for mutual TLS; None if none of the three files is given."""
     if cert is None or key is None or ca is None:
         if cert or key or ca:
             raise UsageError(

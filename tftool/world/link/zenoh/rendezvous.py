@@ -3,11 +3,12 @@
 Every member of a session has a socket in the folder, named after the member. A later process
 connects to all members that respond, and removes the sockets of processes that have ended. So there
 is no daemon, and every process may end at any time. A process holds a lock while it joins, so that
-two processes cannot both believe to be the first.
+two processes never both start as the first.
 
-Other users of the machine are kept out: sockets are in folders of mode 700. If a path is too long
-for a socket, a short folder of the user is used instead, never a port. On platforms without such
-sockets, ports of the loopback are guarded by a password in the folder.
+Other users of the machine have no access, because sockets are in folders of mode 700. If a path is
+too long for a socket, a short folder of the user is used instead, never a port. On platforms
+without Unix sockets, processes connect to ports of the loopback, with a password that is stored in
+the folder.
 """
 
 import contextlib
@@ -81,7 +82,7 @@ def folder(environment: Mapping[str, str] = os.environ) -> Path:
 
 
 def has_members(domain: int, home: Path | None = None) -> bool:
-    """Return whether there is a local process to join, checked without changing anything."""
+    """Return whether a local process exists that this process can join; change nothing."""
     place = _fitting((folder() if home is None else home) / str(domain))
     with contextlib.suppress(OSError):
         return next(_living(place, sweep=False), None) is not None
@@ -89,7 +90,7 @@ def has_members(domain: int, home: Path | None = None) -> bool:
 
 
 def frames_known(domain: int, home: Path | None = None) -> list[str]:
-    """Return the names of the frames that running members of the local session have, sorted.
+    """Return the sorted names of the frames that running members of the local session publish.
 
     The names are read from files that the members write; no session is opened.
     """
@@ -119,7 +120,7 @@ class Rendezvous:
         folder: Folder of the members' sockets.
         endpoint: Endpoint of this process, in zenoh's notation.
         password: Password of this folder's members; "" if the sockets' permissions suffice.
-        others: Endpoints and process ids of other members that responded when `enter` ran.
+        others: Process ids of the other members that responded during `enter`, by endpoint.
     """
 
     def __init__(self, domain: int, home: Path | None = None) -> None:
@@ -166,7 +167,7 @@ class Rendezvous:
             self._lock = None
 
     def tell_frames(self, names: Sequence[str]) -> None:
-        """Write the list of this process's frames for `frames_known`; errors are ignored."""
+        """Write the names of this process's frames for `frames_known`; ignore errors."""
         path = self.folder / f"{self._name}{FRAMES}"
         # Renamed when complete, so that a reader never sees half a list.
         fresh = path.with_name(f"{self._name}.new")
@@ -265,13 +266,13 @@ def _make_private(path: Path) -> None:
 
 def _unusable(path: Path, error: OSError) -> str:
     return (
-        f"no session can meet in {path}: {error.strerror or error}; "
+        f"no session can use {path}: {error.strerror or error}; "
         f"name another folder in {FOLDER_VARIABLE}"
     )
 
 
 def _fitting(place: Path) -> Path:
-    """Return the folder for sockets: `place`, or a short folder if the path `place` is too long.
+    """Return the folder for sockets: `place`, or a folder with a shorter path if necessary.
 
     All processes with the same `place` get the same result.
     """
@@ -289,7 +290,7 @@ def _holds_sockets(folder: Path) -> bool:
 
 
 def _password_in(folder: Path) -> str:
-    """Return the password of a folder's members; the first member creates it, holding the lock."""
+    """Return the password of a folder's members; the first member creates the password."""
     file = folder / PASSWORDS
     known = _text_of(file).partition(":")[2]
     if known:
@@ -348,7 +349,7 @@ def _answers(family: int, address: Any) -> bool:
 
 
 def _pid_of(path: Path) -> int:
-    """Return the process id in a file's name; 0 if there is none."""
+    """Return the process id in a file's name; 0 for other names."""
     pid = path.name.partition("-")[0]
     return int(pid) if pid.isascii() and pid.isdigit() and len(pid) < 20 else 0
 
@@ -359,12 +360,12 @@ def _port_in(path: Path) -> int:
 
 
 def _text_of(path: Path) -> str:
-    """Return the text of a small file; "" if it cannot be read."""
+    """Return the text of a small file; "" if the file cannot be read."""
     return _content_of(path, _LONGEST_TEXT).decode("ascii", "replace").strip()
 
 
 def _content_of(path: Path, longest: int) -> bytes:
-    """Return a file's first `longest` bytes; b"" if it is no regular file (a pipe would block)."""
+    """Return a file's first `longest` bytes; b"" for a pipe or device, which could block."""
     flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOFOLLOW", 0)
     try:
         with open(os.open(path, flags), "rb") as file:
