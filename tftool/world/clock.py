@@ -134,7 +134,7 @@ class Clock(ABC):
         return future
 
     async def sleep_until(self, stamp: Stamp, phase: Phase = Phase.CONSUME, rank: int = 0) -> None:
-        """Wait until the time `stamp`; after that time, only let earlier waiters run first."""
+        """Wait until `stamp`; if `stamp` has passed, wait only for waiters that came earlier."""
         await self.timer(stamp, phase, rank)
 
     async def sleep(self, duration: Duration, phase: Phase = Phase.CONSUME, rank: int = 0) -> None:
@@ -483,7 +483,7 @@ class FollowedClock(WallClock):
             self._set_alarm()
 
     def limit(self, until: Stamp | None) -> None:
-        """Set the time after which a blocking node is ended; set none unless time is real."""
+        """Set the time after which a blocking node is ended, if the clock shows real time."""
         super().limit(None if self.is_told else until)
 
     def _shift(self, change: Duration) -> None:

@@ -132,7 +132,7 @@ class Endpoints:
         self._silent: set[Endpoint] = set()
 
     def add(self, endpoint: Endpoint) -> Callable[[], None]:
-        """Add an endpoint; return a function that removes it."""
+        """Add an endpoint; return a function that removes the endpoint."""
         others = self._by_topic.setdefault(endpoint.topic, [])
         others.append(endpoint)
         for other in others:

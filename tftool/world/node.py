@@ -95,8 +95,8 @@ class Node(Resident):
         """Yield the times of a timer, at exact multiples of the period from now on.
 
         The first time is one period from now, as for a ROS timer. On the wall clock, a late node
-        gets a few missed times at once. If it missed more, later times are shifted. A delay of a
-        second is logged once.
+        gets a few missed times at once. A node that missed more times continues with shifted times.
+        A delay of a second is logged once.
 
         Args:
             period: Nanoseconds between two times.
@@ -152,7 +152,7 @@ class Node(Resident):
         callback: Callable[[T], object],
         quality: Quality = USUAL,
     ) -> Callable[[], None]:
-        """Call `callback` with every message of a topic; an exception of `callback` ends this node.
+        """Call `callback` with each message of a topic; its exceptions make this node fail.
 
         A latched subscription also gets earlier messages of latched publishers.
         """
@@ -204,7 +204,7 @@ class Node(Resident):
     # Settings
 
     def declare_parameter(self, name: str, default: Value) -> Value:
-        """Declare a parameter with its default; return its value."""
+        """Declare a parameter with a default; return the parameter's value."""
         return self.parameters.declare(name, default)
 
     def get_parameter(self, name: str) -> Value:

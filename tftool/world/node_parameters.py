@@ -1,4 +1,4 @@
-"""Parameters of a node, and ROS 2's six services for them."""
+"""Parameters of a node, and the six ROS 2 services that read and set parameters."""
 
 import array
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -86,7 +86,7 @@ class Parameters:
         self._listeners: list[Callable[[str, Value], object]] = []
 
     def declare(self, name: str, default: Value) -> Value:
-        """Declare a parameter; the default determines its type. Return its value."""
+        """Declare a parameter, whose type is the type of the default; return the value."""
         return self._values.setdefault(name, default)
 
     def __getitem__(self, name: str) -> Value:

@@ -145,7 +145,7 @@ class Supervisor:
     Attributes:
         over: Future that is set when the run must end.
         failure: Error about the first node that failed; None if none failed.
-        error: Error without a node that ended the run; None if no such error occurred.
+        error: Error that ended the run, if no node raised the error; else None.
     """
 
     def __init__(self, clock: Clock, has_end: bool) -> None:

@@ -222,7 +222,7 @@ class GoalHandle:
             self.on_cancel()
 
     async def cancellation(self) -> bool:
-        """Wait for the decision on the last request to cancel; return whether it was accepted."""
+        """Wait for the decision on the last cancel request; return whether it was accepted."""
         return self._cancellation is not None and await asyncio.shield(self._cancellation)
 
     async def result(self) -> GoalResult:
@@ -304,7 +304,7 @@ class NamedOffers(Generic[T]):
         self.by_name: Mapping[str, Offer[T]] = MappingProxyType(self._first)
 
     def add(self, name: str, offer: Offer[T], *, shares: bool) -> Callable[[], None]:
-        """Add a server; return a function that removes it.
+        """Add a server; return a function that removes the server.
 
         Args:
             name: Name of the service or action.

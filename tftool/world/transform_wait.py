@@ -1,6 +1,6 @@
 """Coroutines that wait for a transform, with a deadline on a clock.
 
-A coroutine does not poll the buffer: the insertion that makes a transform possible wakes it.
+The coroutines do not poll: the insertion that makes a transform possible wakes the coroutine.
 """
 
 import asyncio

@@ -384,7 +384,7 @@ class World:
     def watch_goals(
         self, name: str, callback: Callable[[GoalHandle], object], owner: str = ""
     ) -> Callable[[], None]:
-        """Call `callback` with each goal of an action, before the server receives it.
+        """Call `callback` with each goal of an action, before the server receives the goal.
 
         Return a function that ends the calls. Exceptions of the callback are reported under the
         name `owner`.
@@ -527,7 +527,7 @@ class World:
     # Nodes
 
     def add(self, node: Resident) -> None:
-        """Add a node; in a running world it starts at once.
+        """Add a node; in a running world, the node starts at once.
 
         Raises:
             TftoolError: If the world has a node of that name.
@@ -565,7 +565,7 @@ class World:
         return name
 
     def remove(self, node: Resident) -> None:
-        """Remove a node; in a running world it is stopped."""
+        """Remove a node; in a running world, the node is stopped."""
         if node in self.nodes:
             self.nodes.remove(node)
             self._changed()

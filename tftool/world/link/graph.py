@@ -66,7 +66,7 @@ class Process:
     """A tftool process in the session, as it announces itself.
 
     Attributes:
-        domain: Number of its ROS domain.
+        domain: Number of the process's ROS domain.
         session: Name of the process in the middleware.
         since: Time of joining on the process's clock, nanoseconds.
         pid: Process id on its machine.
@@ -89,7 +89,7 @@ class Graph:
     """Nodes, publishers, subscriptions, servers and clients of all other processes.
 
     Attributes:
-        own: Session name of this process, whose entities are left out.
+        own: Session name of this process. The graph leaves out this process's entities.
         domain: Number of this process's domain.
     """
 
@@ -105,8 +105,8 @@ class Graph:
         """Add an entity or process under a key, which `remove` needs.
 
         Returns:
-            The entity or process; None if the graph is full, or shows no such entity (known key,
-            other domain, own entity).
+            The entity or process; None for a known key, another domain or this process, or if the
+            graph is full.
         """
         if key in self._entities or key in self._processes or found.session == self.own:
             return None
@@ -139,12 +139,12 @@ class Graph:
         return gone
 
     def get(self, key: str) -> GraphEntity | Process | None:
-        """Return the entity or process of a key; None if there is none."""
+        """Return the entity or process of a key; None for an unknown key."""
         return self._entities.get(key) or self._processes.get(key)
 
     @property
     def foreign_domains(self) -> frozenset[int]:
-        """Numbers of other domains in which entities were noticed."""
+        """Numbers of the other domains in which this process has noticed entities."""
         return frozenset(self._foreign)
 
     def processes(self) -> list[Process]:
@@ -152,11 +152,11 @@ class Graph:
         return sorted(self._processes.values(), key=lambda one: (one.since, one.session))
 
     def process(self, session: str) -> Process | None:
-        """Return the tftool process with a session name; None if there is none."""
+        """Return the tftool process with a session name; None for an unknown name."""
         return next((one for one in self._processes.values() if one.session == session), None)
 
     def entities(self, *kinds: str, name: str | None = None) -> list[GraphEntity]:
-        """Return the entities of some kinds, or of all; with `name`, only those with that name."""
+        """Return the entities of the given kinds (default: all), and only with `name` if given."""
         found = self._entities if name is None else self._by_name.get(name, {})
         return [one for one in found.values() if not kinds or one.kind in kinds]
 
@@ -184,8 +184,8 @@ class Graph:
     def publisher(self, gid: bytes, topic: str) -> GraphEntity | None:
         """Return the publisher with an id, by which a message names its sender.
 
-        ROS 2 nodes may announce another id. So for an unknown id, the topic's only publisher
-        outside tftool processes is returned.
+        ROS 2 nodes send other ids than tftool computes from their announcements. So for an unknown
+        id, the topic's only publisher that is not a tftool process is returned.
 
         Args:
             gid: Id in a message.

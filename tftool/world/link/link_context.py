@@ -22,7 +22,7 @@ UNKNOWN: Final = Quality(is_latched=True)
 
 
 class LinkContext:
-    """State that all bridges of a session connection share: middleware, world, counts of errors.
+    """State that all bridges of a session connection share: middleware, world, counts of messages.
 
     Attributes:
         options: Options of this process in the session.
@@ -79,7 +79,7 @@ class LinkContext:
 
     @property
     def awaits_statics(self) -> bool:
-        """Whether a known publisher of static transforms has sent none yet."""
+        """Whether a publisher of static transforms has been announced, but has sent nothing yet."""
         if b"" in self.heard_statics:
             return False  # a sender that does not identify itself
         publishers = self.graph.entities(PUBLISHER, name="tf_static")
@@ -88,7 +88,7 @@ class LinkContext:
         )
 
     def authority(self, gid: bytes, topic: str) -> str:
-        """Return the name of the node that sent a message, or `publisher_GID` if it is unknown."""
+        """Return the name of the node that sent a message; `publisher_GID` for an unknown node."""
         entity = self._sender(gid, topic)
         return _unnamed(gid) if entity is None else entity.node
 
@@ -104,7 +104,7 @@ class LinkContext:
         return self.far_endpoint(entity)
 
     def far_endpoint(self, entity: GraphEntity) -> Endpoint:
-        """Return a publisher, subscription or client of another process as a world's endpoint."""
+        """Return the `Endpoint` of another process's publisher, subscription or client."""
         if entity not in self.endpoints:
             self.endpoints[entity] = Endpoint(
                 cast("Role", entity.kind),

@@ -32,7 +32,7 @@ _OWNERS: Final = {name: one for one in REACHES for name in one.OPTIONS}
 
 
 def read_reach(given: Mapping[str, Any]) -> Reach:
-    """Return the networks that this process may use (its reach), from the given options.
+    """Create the `Reach` (networks that this process may use) from the given options.
 
     Args:
         given: Values of the middlewares' options, by the names of their parameters.
@@ -54,7 +54,7 @@ def read_reach(given: Mapping[str, Any]) -> Reach:
 
 
 def reach_at(word: str) -> Reach | None:
-    """Return the reach of the session at an address; None for a word that is no address.
+    """Return the `Reach` of the session at an address; None for a word that is not an address.
 
     Raises:
         UsageError: If the address is malformed.
@@ -83,7 +83,7 @@ class Options:
 
 
 def domain_here() -> int:
-    """Return the domain in the variable ROS_DOMAIN_ID; 0 if it is not set.
+    """Return the domain in the variable ROS_DOMAIN_ID; 0 if the variable is not set.
 
     Raises:
         UsageError: If the variable's value is not the number of a domain.

@@ -45,7 +45,7 @@ class Inbox:
             loop.call_soon(self._drain)
 
     def call_now(self) -> None:
-        """Make the queued calls now, in this thread, before there is an event loop."""
+        """Make the queued calls now, in this thread; used while no event loop exists."""
         while self._loop is None:
             with self._lock:
                 if not self._waiting:
@@ -135,7 +135,8 @@ class Outbox:
     """Queue of calls that send messages, made in order in one thread.
 
     Attributes:
-        dropped: Number of calls that were dropped because the queue was full and the sender stuck.
+        dropped: Number of calls that were dropped because the queue was full and no message could
+            be sent.
     """
 
     def __init__(self) -> None:

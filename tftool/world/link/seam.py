@@ -43,7 +43,7 @@ class WirePublisher(Protocol):
         """
 
     def close(self) -> None:
-        """Close the publisher when everything queued is sent."""
+        """Close the publisher after all queued messages are sent."""
 
 
 class WireRequest(Protocol):
@@ -80,9 +80,9 @@ class Watcher(Protocol):
     """Callbacks of a middleware to the session connection that uses it."""
 
     def graph_changed(self, found: GraphEntity | Process | None, there: bool) -> None:
-        """Handle an entity that was added (`there` is true) or removed (false).
+        """Handle an entity that was added (if `there`) or removed.
 
-        `found` is None if only the existence of another ROS domain was noticed.
+        `found` is None if the change is only that another ROS domain was noticed.
         """
 
     def refuse(self, name: str, refusal: MalformedMessage) -> None:
@@ -97,10 +97,11 @@ def nothing() -> None:
 
 
 class Middleware:
-    """This process in a ROS graph. Names have no leading slash.
+    """Participation of this process in a ROS graph. Names have no leading slash.
 
     `Reach.join` creates an instance. No other process of this machine can join until `settle` or
-    `close` is called. A method that is not overridden announces nothing, or refuses to write.
+    `close` is called. By default, methods that announce an entity do nothing, and methods that
+    create a publisher, server or client raise an error.
 
     Attributes:
         graph: Graph of the other processes; filled before the constructor returns.
@@ -114,7 +115,7 @@ class Middleware:
     """Error text of a middleware without publishers, servers or clients."""
 
     def __init__(self, graph: Graph) -> None:
-        """Store the graph that this process takes part in."""
+        """Store the graph of the other processes."""
         self.graph = graph
         self.session = graph.own
         self.unanswering: tuple[int, ...] = ()
@@ -129,7 +130,7 @@ class Middleware:
         """Make the names of this process's frames known to other local commands, if possible."""
 
     def settle(self) -> None:
-        """Let other local processes join from now on, if they had to wait."""
+        """Allow other local processes to join from now on."""
 
     def close(self) -> None:
         """Send queued messages, and leave the graph; no callback follows."""
@@ -199,9 +200,9 @@ class Middleware:
     # For middlewares: reports to the watcher, if there is one yet
 
     def report(self, found: GraphEntity | Process | None, there: bool) -> None:
-        """Report to the watcher that an entity was added (`there` is true) or removed.
+        """Report to the watcher that an entity was added (if `there`) or removed.
 
-        `found` is None if only the existence of another ROS domain was noticed.
+        `found` is None if the change is only that another ROS domain was noticed.
         """
         if self.watcher is not None:
             self.watcher.graph_changed(found, there)
@@ -212,6 +213,6 @@ class Middleware:
             self.watcher.refuse(name, refusal)
 
     def say_once(self, what: str, sentence: str) -> None:
-        """Log a warning about other processes by the watcher, once for each value of `what`."""
+        """Let the watcher log a warning about other processes, once for each value of `what`."""
         if self.watcher is not None:
             self.watcher.say_once(what, sentence)

@@ -29,7 +29,7 @@ LONGEST: Final = 3600.0
 
 
 class Answering:
-    """Server that answers other processes' requests for one service of this process's world."""
+    """Server that answers requests of other processes for one service of this process's world."""
 
     def __init__(
         self,
@@ -129,7 +129,7 @@ class ServiceClient:
         )
 
     def close(self) -> None:
-        """Remove the service from this world."""
+        """Remove the service of the other process from this world."""
         self._withdraw()
         self._asking.close()
 
@@ -230,7 +230,7 @@ class ActionClient:
         )
 
     def close(self) -> None:
-        """Remove the action from this world; running goals end as aborted."""
+        """Remove the other process's action from this world; running goals end as aborted."""
         self._withdraw()
         self._stop_feedback()
         self._tasks.cancel()

@@ -71,7 +71,7 @@ class StaticBroadcaster(Node):
     phase: ClassVar[Phase] = Phase.BROADCAST
 
     def __init__(self, world: World, name: str, *, transforms: Sequence[TransformStamped]) -> None:
-        """Add the node to a world; the transforms get their stamps when they are broadcast."""
+        """Add the node to a world; each transform gets the time of its broadcast as stamp."""
         super().__init__(world, name)
         self.transforms = tuple(transforms)
 
@@ -151,7 +151,7 @@ class DynamicCarrot(Node):
 def carrot_offset(
     stamp: Stamp, radius: float = 10.0, *, whole_seconds: bool = False
 ) -> tuple[float, float]:
-    """Return the moving carrot's x and y in its parent's frame at a time, metres."""
+    """Return (x, y) of the moving carrot in its parent's frame at the time `stamp`, metres."""
     # Reduced in nanoseconds, because a real clock's seconds are too large for an exact sine.
     turn = stamp % (2 * NANOSECONDS)
     if whole_seconds:
@@ -177,7 +177,7 @@ USAGE = "static_turtle_tf2_broadcaster child_frame_name x y z roll pitch yaw"
 def static_turtle(arguments: Sequence[str]) -> TransformStamped:
     """Parse the seven arguments of the tutorial's static broadcaster.
 
-    The angles are in the order roll, pitch, yaw; static_transform_publisher uses the reverse order.
+    The angles are in the order roll, pitch, yaw; static_transform_publisher has yaw, pitch, roll.
 
     Args:
         arguments: child_frame_name x y z roll pitch yaw.

@@ -51,7 +51,7 @@ class RobotOdometry(Node):
         Args:
             world: World to join.
             name: Name of the node.
-            odom: Frame of odometry; at the start it coincides with the map.
+            odom: Frame of odometry, which coincides with the map at the start.
             base: Frame of the robot.
             start: x, y and heading in the map at the start.
             speed: Speed in m/s until the first command.
@@ -192,7 +192,7 @@ class LaserPoint(_Observer):
 
 
 class ScanMatcher(_Observer):
-    """Node that broadcasts the laser's motion as estimated from its scans, in a separate tree.
+    """Node that broadcasts the laser's motion, as a scan matcher estimates it, in its own tree.
 
     The node ignores the published transform from the robot to the laser, and uses the true pose of
     the laser on the robot.

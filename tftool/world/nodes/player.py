@@ -31,7 +31,7 @@ SLOWEST, FASTEST = 0.01, 100.0
 
 
 class Player(Node):
-    """Node that broadcasts a recording's transforms as they were timed, and publishes `/clock`.
+    """Node that publishes a recording's transforms at the recorded intervals, and `/clock`.
 
     All times in this class are times of the recording, like the stamps of its transforms.
 
@@ -132,7 +132,7 @@ class Player(Node):
         self.rate = min(max(rate, SLOWEST), FASTEST)
 
     def step(self) -> None:
-        """Pause the recording, then send only its next transform."""
+        """Pause the playback, and send the next transform of the recording."""
         self.pause()
         if self._place < len(self._timeline):
             moment = int(self._timeline.moments[self._place])
@@ -144,7 +144,7 @@ class Player(Node):
                 self._feed_until(moment)
 
     def seek(self, moment: Stamp) -> None:
-        """Jump to a time: send the frames at that time, and the transforms of the last second."""
+        """Jump to a time; send the frames at that time, and the transforms of the second before."""
         before = self.position
         self._anchor = min(max(moment, self.start), self.end)
         self._since = self._pace.now()
@@ -259,7 +259,7 @@ class Player(Node):
         return since + wait - moment
 
     def _tell(self, moment: Stamp | None = None) -> None:
-        """Set the world's clock to the playback's time, and publish it on `/clock`."""
+        """Set the world's clock to the playback's time, and publish this time on `/clock`."""
         if self._is_silent:
             return
         now = max(self._anchor if moment is None else moment, 1)

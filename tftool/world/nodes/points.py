@@ -1,4 +1,4 @@
-"""Nodes of the message filter's demonstration: points that wait for their transform."""
+"""Nodes of tf2's message filter tutorial, in which points wait for their transforms."""
 
 import asyncio
 from typing import Any

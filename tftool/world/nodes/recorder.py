@@ -31,7 +31,7 @@ class Taker(Protocol):
     """Protocol of an object that receives every recorded message, such as a file writer."""
 
     def take(self, channel: Channel, log_time: int, payload: bytes, transforms: int = 0) -> None:
-        """Store one received message and its number of transforms."""
+        """Store one received message, which contains `transforms` transforms."""
 
 
 class Recorder:

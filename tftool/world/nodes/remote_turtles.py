@@ -44,7 +44,7 @@ class FarTurtle:
     Attributes:
         name: Name of the turtle.
         pose: Last Pose message.
-        heard: Time at which that message arrived, nanoseconds.
+        heard: Time at which the last Pose message arrived, nanoseconds.
         wall_hits: Always 0: no topic reports hits of the wall.
     """
 

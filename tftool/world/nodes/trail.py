@@ -35,14 +35,14 @@ class Segment(NamedTuple):
 
 
 class Trail:
-    """Strokes of all turtles' pens, on the layer below the turtles.
+    """Strokes of all turtles' pens, which are drawn below the turtles.
 
     Pixels are painted only when a colour is read, which most worlds never do.
 
     Attributes:
         segments: The newest strokes, oldest first.
-        drawn: Number of strokes since all were last erased.
-        wipes: Number of times that all strokes were erased.
+        drawn: Number of strokes since the trail was last erased.
+        wipes: Number of times that the trail was erased.
     """
 
     def __init__(self) -> None:
@@ -94,8 +94,8 @@ class _Pixels:
     def paint(self, segment: Segment) -> None:
         """Set every pixel whose centre is on a stroke, which has square ends.
 
-        A stroke is a rectangle of its width that exceeds both ends by half a width. The pixels
-        nearest to the ends belong to the stroke, however thin it is.
+        A stroke is a rectangle that exceeds both ends by half the stroke's width. The pixels
+        nearest to the ends always belong to the stroke, even to a very thin stroke.
         """
         number = self._number(segment.color)
         x0, y0 = segment.x0 * PIXELS_PER_METRE, (FIELD - segment.y0) * PIXELS_PER_METRE

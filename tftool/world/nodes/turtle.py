@@ -67,7 +67,7 @@ def require_turtle_name(name: str) -> str:
 
 
 def shown(name: str) -> str:
-    """Return a name from another process shortened and with control characters escaped."""
+    """Return another process's name, shortened and with control characters escaped."""
     return repr(name if len(name) <= 60 else name[:59] + "…")[1:-1]
 
 
@@ -146,7 +146,7 @@ class Turtle:
             self._end_goal("aborted")
 
     def teleport(self, where: Callable[[Placement], Placement]) -> None:
-        """Queue a teleport for the next update, after earlier teleports."""
+        """Queue a teleport, a function that returns the new pose, for the next update."""
         self._settled = False
         self._teleports.append(where)
 

@@ -182,8 +182,8 @@ _STEPS: Final = 360
 class IdleDrawing(Node):
     """Node that makes an idle turtle draw a rose curve of four petals repeatedly.
 
-    Drawing begins after `PATIENCE` without a command. Drawing ends with the next command of another
-    node, with `touch`, and while `is_alone` returns False.
+    Drawing begins after the time `patience` without a command, and ends with another node's next
+    command or with `touch`. While `is_alone` returns False, nothing is drawn.
 
     Attributes:
         is_drawing: Whether the turtle is drawing now.
@@ -317,7 +317,7 @@ class KeyPress:
 
 @dataclass(frozen=True, slots=True)
 class KeyMeaning:
-    """Command that a key of the teleop node stands for.
+    """Effect of a key of the teleop node.
 
     Attributes:
         action: Kind of action: drive, turn to a heading, cancel the turn, or quit.

@@ -65,7 +65,7 @@ class _Found:
 
 
 class Information:
-    """One format of the messages on `ros_discovery_info`: which node has which endpoints."""
+    """Format of the messages on `ros_discovery_info`, which list the endpoints of each node."""
 
     def __init__(self, size: int) -> None:
         self.size = size
@@ -83,7 +83,7 @@ class Information:
 
         Args:
             participant: GUID of the participant.
-            nodes: GUIDs of the readers and of the writers of each of its nodes.
+            nodes: For each node of the participant, the GUIDs of its readers, and of its writers.
         """
         said: Any = self.kind()
         said.gid = self._gid(participant)

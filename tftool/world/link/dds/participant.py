@@ -260,7 +260,7 @@ class Participant:
         on_sample: Callable[[DdsSample], object],
         on_refused: Callable[[int], object] | None = None,
     ) -> "TopicReader":
-        """Create a topic's reader, which calls `on_sample` in the event loop with messages.
+        """Create a reader of a topic; the event loop calls `on_sample` with the messages.
 
         Args:
             topic: Name of the topic in DDS.
@@ -436,9 +436,9 @@ class TopicWriter:
 
 
 def _end(entity: Any) -> None:
-    """Delete an object of the library now, even if something still refers to it.
+    """Delete an object of the library now, even if references to the object still exist.
 
-    The library itself deletes an object only when the last reference to it is gone.
+    The library itself deletes an object only with the last reference.
     """
     entity.__del__()
 

@@ -53,11 +53,11 @@ class DdsReach(Reach):
 
     @classmethod
     def read(cls, given: Mapping[str, Any]) -> "DdsReach":
-        """Return the reach that the given options describe; see `Reach.read`."""
+        """Create a `DdsReach` from the given options; see `Reach.read`."""
         return cls(tuple(given.get("dds_on") or ()))
 
     def place(self, domain: int) -> str:
-        """Return the domain and its interfaces or addresses as text."""
+        """Return the domain, and its interfaces or addresses, as text for messages."""
         return f"DDS domain {domain} on {', '.join(self.places) or 'the loopback'}"
 
     def join(self, options: "Options") -> "Middleware":

@@ -122,7 +122,7 @@ class FoxgloveMiddleware(Middleware):
             on_message(arrived)
 
     def _conversion(self, channel: FoxgloveChannel) -> Callable[[bytes], bytes] | None:
-        """Return the function that converts a channel's messages to CDR; None for no function."""
+        """Return the function that converts a channel's messages to CDR; None if none exists."""
         if channel not in self._conversions:
             self._conversions[channel] = None
             try:

@@ -1,4 +1,4 @@
-"""Messages of the Foxglove WebSocket protocol that a reader needs.
+"""Messages of the Foxglove WebSocket protocol, as far as a subscribing client needs them.
 
 A server sends JSON about its channels, and binary messages of subscribed channels. All of this data
 is untrusted, so every field is checked, and every store has a limit.
@@ -58,7 +58,7 @@ class ProtocolError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class FoxgloveChannel:
-    """Topic of a server with one schema.
+    """Channel of a server: a topic with one encoding and one type.
 
     Attributes:
         number: Number of the channel on this connection.

@@ -33,7 +33,11 @@ class FoxgloveReach(Reach):
 
     @classmethod
     def at(cls, address: str) -> "FoxgloveReach":
-        """Return the reach of a server's address; None for a word that is no such address."""
+        """Create the `FoxgloveReach` of a server's address.
+
+        Raises:
+            UsageError: If the address is malformed.
+        """
         found = _ADDRESS.fullmatch(address)
         if found is None or not 0 < int(found[1] or 1) < 65536:
             raise UsageError(f"'{address}' is not a server address: write ws://HOST:8765.")

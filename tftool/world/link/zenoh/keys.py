@@ -54,7 +54,7 @@ def dds_name(ros_type: str) -> str:
 
 
 def ros_name(dds_type: str) -> str:
-    """Return the ROS name of a type from its DDS name; other names are unchanged."""
+    """Return the ROS name of a type from its DDS name; return other text unchanged."""
     parts = dds_type.split("::")
     if len(parts) != 4 or parts[2] != "dds_" or not parts[3].endswith("_"):
         return dds_type
@@ -68,19 +68,19 @@ def data_key(domain: int, name: str, ros_type: str, its_hash: str = "") -> str:
         domain: Number of the ROS domain.
         name: Name of the topic or service.
         ros_type: Type of the topic or service.
-        its_hash: Hash of the type in the other process, whose ROS release may differ; "" for the
-            hash of this process.
+        its_hash: Hash of the type in the other process, which may have another ROS release; "" to
+            use the hash of this process.
     """
     return f"{domain}/{name.strip('/')}/{dds_name(ros_type)}/{its_hash or type_hash(ros_type)}"
 
 
 def any_hash_key(domain: int, name: str, ros_type: str) -> str:
-    """Return the zenoh key to receive messages with any type hash, which depends on the release."""
+    """Return the zenoh key that receives messages with any type hash (ROS releases differ)."""
     return f"{domain}/{name.strip('/')}/{dds_name(ros_type)}/*"
 
 
 def quality(stated: Quality) -> str:
-    """Return a quality of service as text for a token; defaults are left empty."""
+    """Return a quality of service as text for a token; default values become empty fields."""
     reliability = "" if stated.is_reliable else _BEST_EFFORT
     durability = _TRANSIENT_LOCAL if stated.is_latched else ""
     history = _KEEP_ALL if stated.keeps_all else ""
@@ -106,7 +106,7 @@ def token_key(entity: GraphEntity, node_id: int, entity_id: int) -> str:
     """Return the key of the liveliness token with which rmw_zenoh announces an entity.
 
     Args:
-        entity: The entity; if it has no type hash, the hash of this process is used.
+        entity: The entity. Without a type hash, the hash of this process is used.
         node_id: Number of the entity's node within the session.
         entity_id: Number of the entity within the session; for a node, the same as `node_id`.
     """
@@ -188,7 +188,7 @@ class Attachment:
     """Metadata that zenoh sends with a message.
 
     Attributes:
-        sequence: Number of the message, or of the request to which it responds.
+        sequence: Number of the message; for a response, number of the request.
         stamp: Time of sending on the sender's clock, nanoseconds.
         gid: Id of the sender, 16 bytes.
     """
@@ -208,7 +208,7 @@ _NAMED = (b"\x0fsequence_number", b"\x10source_timestamp", b"\x0asource_gid")
 
 
 def parse_attachment(raw: bytes) -> Attachment:
-    """Parse an attachment, in the present format or that of early Jazzy.
+    """Parse an attachment in the present format, or in the format of early Jazzy releases.
 
     Raises:
         MalformedMessage: If the bytes have another format.
@@ -241,8 +241,8 @@ def _named_attachment(raw: bytes) -> Attachment:
 
 
 def gid_of(token: str) -> bytes:
-    """Return the 16-byte gid of a publisher, derived from its token.
+    """Return the 16-byte gid of a publisher, computed from the publisher's token.
 
-    ROS 2 also derives gids from tokens, with another hash. Gids are only compared for equality.
+    ROS 2 also computes gids from tokens, with another hash. Gids are only compared for equality.
     """
     return hashlib.blake2b(token.encode(), digest_size=16).digest()

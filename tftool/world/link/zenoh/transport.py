@@ -80,7 +80,8 @@ class Wire:
 
     Attributes:
         zid: Id of the session, in hexadecimal.
-        oversized: Number of received messages above the size limit.
+        oversized: Number of received messages that were dropped because they exceeded the size
+            limit.
     """
 
     def __init__(self, reach: ZenohReach, place: Rendezvous | None) -> None:
@@ -106,7 +107,7 @@ class Wire:
         return self._inbox.lost
 
     def start(self, loop: asyncio.AbstractEventLoop) -> None:
-        """Call callbacks in an event loop from now on."""
+        """Call the callbacks in the event loop `loop` from now on."""
         self._inbox.start(loop)
 
     def close(self) -> None:
@@ -168,7 +169,7 @@ class Wire:
         Args:
             key: The key, which may have wildcards.
             on_message: Function called in the event loop.
-            is_latched: Whether to request earlier messages.
+            is_latched: Whether to request messages that were sent before this call.
         """
 
         def arrived(sample: Any) -> None:
@@ -191,7 +192,7 @@ class Wire:
         return _undeclare(subscriber)
 
     def _take(self, sample: Any, on_message: Callable[[Sample], object]) -> None:
-        """Check a message's size and queue it for the event loop; called in zenoh's thread."""
+        """Check a message's size, and queue the message for the event loop; runs in a thread."""
         if sample.kind != self._zenoh.SampleKind.PUT:
             return
         size = len(sample.payload)
@@ -231,7 +232,7 @@ class Wire:
         Args:
             key: Key of the service.
             payload: Request in CDR.
-            attachment: Attachment to send with it.
+            attachment: Attachment to send with the request.
             timeout: Longest wait in seconds.
 
         Raises:
@@ -308,7 +309,7 @@ class Wire:
     def watch_tokens(
         self, key: str, on_token: Callable[[tuple[str, bool]], object]
     ) -> Callable[[], None]:
-        """Call `on_token` with (token, whether it exists) on changes; return a stop function."""
+        """Call `on_token` with (token, whether it was added) on changes; return a stop function."""
 
         def changed(sample: Any) -> None:
             there = sample.kind == self._zenoh.SampleKind.PUT
@@ -383,7 +384,7 @@ def open_zenoh(zenoh: Any, reach: ZenohReach, place: Rendezvous | None) -> Any:
 
 
 def settings(reach: ZenohReach, place: Rendezvous | None) -> dict[str, Any]:
-    """Return the settings for zenoh; its own defaults would listen on every interface."""
+    """Return the settings for zenoh; with zenoh's defaults, it would listen on every interface."""
     outward = bool(reach.listen or reach.connect)
     found: dict[str, Any] = {
         # A router forwards between this machine's processes, which are connected
