@@ -157,7 +157,7 @@ def range_form(unit: Unit, default: RangeCheck | None = None, tolerance: float =
 
 
 def _nearest(wanted: Iterable[str], known: Collection[str]) -> str:
-    """Return the question "; did you mean …" with the known names nearest to unknown names.
+    """Return the hint "; did you mean …" with the known names nearest to unknown names.
 
     Args:
         wanted: Names in the expectation.
@@ -173,7 +173,7 @@ def _nearest(wanted: Iterable[str], known: Collection[str]) -> str:
 
 @dataclass(frozen=True, slots=True)
 class FrameFacts:
-    """Facts about a frame; all None if the frame is unknown.
+    """Facts about a frame; if `exists` is false, the other facts are None.
 
     Attributes:
         exists: Whether the frame is known.

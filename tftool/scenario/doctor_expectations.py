@@ -47,7 +47,7 @@ NO_RULES = DoctorRules()
 
 
 def check_or_area(node: Node, reading: Reading) -> str:
-    """Read the id of a check, or an area of checks."""
+    """Read the id of one of the doctor's checks, or the name of an area (group of checks)."""
     from tftool.doctor.findings import Area
     from tftool.doctor.judge import CHECKS
 
@@ -60,7 +60,7 @@ def check_or_area(node: Node, reading: Reading) -> str:
 
 
 def limits(node: Node, reading: Reading) -> Mapping[str, Mapping[str, float]]:
-    """Read thresholds, such as `gap.seconds: 2`."""
+    """Read thresholds of the doctor's checks from a mapping, such as `{gap.seconds: 2}`."""
     from tftool.doctor.judge import CHECKS
 
     found: dict[str, dict[str, float]] = {}

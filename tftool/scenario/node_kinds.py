@@ -178,7 +178,7 @@ def _color(node: document.Node, reading: Reading) -> Color:
 
 
 def _turtle(node: document.Node, reading: Reading) -> Any:
-    """Read a turtle that exists from the start; return a Spawn request for it."""
+    """Read a turtle that exists from the start; return the turtle as a Spawn request."""
     known = {
         "name": Key(values.turtle),
         "x": Key(values.length),

@@ -55,8 +55,8 @@ class When:
     """Times at which an expectation is judged, in nanoseconds since the start.
 
     Attributes:
-        kind: "at": true at one time; "by": true at some time until `last`; "during": true at all
-            times from `first` to `last`.
+        kind: "at": the expectation must hold at one time; "by": at some time until `last`;
+            "during": at all times from `first` to `last`.
         first: First time of judging.
         last: Last time of judging.
         every: Interval between the times of judging.
@@ -93,7 +93,7 @@ class Expectation:
         return f"{self.when}: {self.question} {self.check}"
 
     def outcome(self, found: str, at: Duration | None, ok: bool) -> "Outcome":
-        """Return the outcome of this expectation: text of the answer found, time, and success."""
+        """Create this expectation's `Outcome` from the answer as text, the time, and the result."""
         return Outcome(
             str(self.question), self.line, str(self.when), str(self.check), found, at, ok
         )
@@ -101,7 +101,7 @@ class Expectation:
 
 @dataclass(frozen=True, slots=True)
 class Scenario:
-    """Description of a world, of the actions in it, and of expectations about it.
+    """Scenario file as data: nodes of a world, actions of a script, and expectations.
 
     Attributes:
         name: Name of the file, without its suffix.
@@ -147,8 +147,7 @@ class Outcome:
         when: Time condition of the expectation, such as "by 20 s".
         expected: Description of a right answer, such as "below 0.5 m".
         found: The answer, or the error, in words.
-        at: Time of the judgement, nanoseconds since the start; None for an expectation never
-            judged.
+        at: Time of the judgement, nanoseconds since the start; None if the run ended before.
         ok: Whether the expectation is met.
     """
 

@@ -134,7 +134,7 @@ positive = quantity(NUMBER, least=0.0)
 
 
 def whole(least: int, most: int) -> Reader:
-    """Return a reader of integers within bounds."""
+    """Return a reader of integers from `least` to `most`."""
 
     def read(node: Node, reading: Reading) -> int:
         value = quantity(NUMBER)(node, reading)
