@@ -148,7 +148,8 @@ class ActionParts:
             others: Number of goals on which the action's server has not decided yet.
 
         Returns:
-            Number of goals above the limit, counting the new goal; not positive if there is room.
+            Number of goals above the limit, counting the new goal; not positive if the new goal
+            fits.
         """
         surplus = len(self._goals) + others + 1 - KEPT
         ended = [goal_id for goal_id, (goal, _) in self._goals.items() if goal.done]

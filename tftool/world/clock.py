@@ -1,8 +1,9 @@
 """Simulated and real clocks with one interface.
 
 No other module uses `time` or `asyncio.sleep`. A waiter states its time and its position within
-that instant: (stamp, phase, rank, order of requests). Both clocks wake waiters in exactly that
-order, because asyncio itself breaks ties between timers of one instant unpredictably.
+that instant: (stamp, phase, rank, order of requests). The simulated and the real clock wake waiters
+in exactly this order, because asyncio itself breaks ties between timers of one instant
+unpredictably.
 
 On the simulated clock the event loop runs in virtual time too. When every task sleeps, time jumps
 to the earliest waiter's time. So asyncio's own timeouts are in simulated time, and ten simulated
@@ -45,8 +46,8 @@ class Clock(ABC):
     Attributes:
         epoch: Time at which the clock was made, nanoseconds. Never 0, which means "latest".
         rate: Seconds of the clock per real second; infinite if simulated.
-        interrupted: Whether a signal has asked the run on this clock to end. It is set when the
-            signal arrives, even while a node blocks the event loop.
+        interrupted: Whether a signal has asked the run on this clock to end. The flag is set when
+            the signal arrives, even while a node blocks the event loop.
         when_killed: Functions called before a second signal ends the process, such as one that
             restores the terminal.
         stopper: Stopper that can end the run; None while nothing runs.
@@ -90,7 +91,7 @@ class Clock(ABC):
 
     @abstractmethod
     def real_timer(self, patience: float) -> "asyncio.Future[None]":
-        """Return a future that is done after `patience` real seconds, unless it is cancelled."""
+        """Return a future that is done after `patience` real seconds, unless cancelled before."""
 
     async def wait_for_end(
         self, tasks: "Collection[asyncio.Task[Any]]"
@@ -153,8 +154,8 @@ class Clock(ABC):
 class SimClock(Clock):
     """Simulated clock: time stands still while a task runs, and jumps when all tasks wait.
 
-    Two runs are exactly equal. One waiter is woken at a time, and all its effects are complete
-    before the next waiter of the same instant is woken.
+    Two runs are exactly equal. One waiter is woken at a time, and all effects of this waiter are
+    complete before the next waiter of the same instant is woken.
 
     Attributes:
         alarms: Number of timers of real time that are set.
@@ -244,7 +245,7 @@ class SimClock(Clock):
         return events
 
     def advance(self, loop_timer: float | None) -> bool:
-        """Jump to the next due timer and wake its waiter; return False if there is no timer.
+        """Jump to the next due timer and wake its waiter; return False without a timer.
 
         The clock's own event loop calls this when every task waits.
 
@@ -404,8 +405,8 @@ class WallClock(Clock):
         if due is not None and due <= self._caught_up:
             return max(due, moment)
         if due is not None and due <= real:
-            # This world is no faster than real time: rather a clock that lags behind the
-            # system's than all timers late at once.
+            # This world is no faster than real time: a clock behind the system's clock is better
+            # than many timers that are late at once.
             self._started += round(behind / self.rate)
         return None
 

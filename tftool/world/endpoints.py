@@ -90,7 +90,7 @@ def _is_longer(offered: Duration | None, requested: Duration | None) -> bool:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Endpoint:
-    """Publisher of a topic, subscription to it, or client of a service.
+    """Publisher of a topic, subscription to a topic, or client of a service.
 
     Attributes:
         role: Whether this is a publisher, a subscription or a client.

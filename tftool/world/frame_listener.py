@@ -39,7 +39,7 @@ def heard_in(world: World, cache_time: Duration | None) -> Iterator[tuple[Buffer
 def logged_in(
     world: World, buffer: Buffer | None = None
 ) -> tuple[TransformLog, Callable[[], None]]:
-    """Record a world's transforms in order of arrival; insert them into `buffer` if it is given.
+    """Record a world's transforms in order of arrival; also insert them into `buffer`, if given.
 
     Returns:
         The record, and a function that ends the recording.

@@ -26,7 +26,8 @@ class LogRecord:
         stamp: Time of the message on the world's clock, nanoseconds.
         level: Severity.
         node: Name of the node that logged the message.
-        text: Text, which may contain names from other processes: escape it for display.
+        text: Text of the message. It may contain names from other processes, so escape the text for
+            display.
         program: Name of the node's program; two programs may have nodes of the same name.
     """
 
@@ -118,7 +119,7 @@ class Log:
         self.add("ERROR", node, text)
 
     def add(self, level: Level, node: str, text: str, *, program: str = "") -> None:
-        """Store a message and pass it to the listeners."""
+        """Store a message, and pass the message to the listeners."""
         record = LogRecord(self._now(), level, node, text, program)
         self.records.append(record)
         self._listeners.call(record)

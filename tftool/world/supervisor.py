@@ -50,8 +50,8 @@ async def live(world: "World", *, until: Stamp | None = None) -> None:
         until: Last time of the run, nanoseconds.
 
     Raises:
-        NodeFailed: If a node raised an exception; the error names the first such node, and has the
-            exception as its cause.
+        NodeFailed: If a node raised an exception; the error names the first node that failed, with
+            the exception as cause.
         BrokenPipeError: If a listener writes to a pipe whose reader has ended.
         ValueError: If the time `until` has passed; `until` is a stamp, not a duration.
     """

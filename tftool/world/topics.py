@@ -33,7 +33,7 @@ class Topic(Generic[T]):
         relay: Function that sends values to other processes, called after all subscribers; None
             without a connection.
         far_subscribers: Number of subscribers in other processes.
-        is_far: Whether the topic is only listed: other processes use it, and this process does not.
+        is_far: Whether only other processes use the topic.
         is_removed: Whether the world has removed the topic. A newer topic may have the same name.
     """
 
@@ -236,7 +236,7 @@ class GoalHandle:
 
     @property
     def ended(self) -> GoalResult | None:
-        """Result of the goal; None while it runs."""
+        """Result of the goal; None while the goal runs."""
         return self._result.result() if self.done else None
 
     # The server's side.

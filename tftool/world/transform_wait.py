@@ -25,7 +25,7 @@ async def wait_for_transform(
     time: Stamp = 0,
     timeout: Duration | None = None,
 ) -> TransformStamped:
-    """Return the transform between two frames as soon as it is available.
+    """Return the transform between two frames as soon as the buffer has the transform.
 
     Args:
         buffer: Buffer with the transforms.

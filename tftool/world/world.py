@@ -153,7 +153,7 @@ class World:
     # Topics
 
     def topic(self, name: str, kind: type[T]) -> Topic[T]:
-        """Return the topic with a name, creating it at the first use.
+        """Return the topic with a name; create the topic at the first use.
 
         Args:
             name: Name of the topic, with or without a leading slash.
@@ -209,7 +209,7 @@ class World:
             kind: Type of the values.
             callback: Function called with every further value.
             quality: Requested quality of service. A latched subscription gets earlier messages of
-                latched publishers: from this process at once, from other processes as they arrive.
+                latched publishers: at once from this process, later from other processes.
         """
         topic = self.topic(name, kind)
         taken: Callable[[Any], object] = callback
@@ -370,7 +370,7 @@ class World:
     ) -> Callable[[], None]:
         """Accept goals of an action with `accept`; return a function that stops the server.
 
-        The arguments are those of `serve`.
+        For the arguments, see `serve`.
 
         Raises:
             TftoolError: If a node of this process serves that action already and `shares` is false.
@@ -439,7 +439,7 @@ class World:
     def broadcast(
         self, transforms: Iterable[TransformStamped], authority: str, *, static: bool = False
     ) -> bool:
-        """Insert transforms into the buffer and publish them on `tf` or `tf_static`.
+        """Insert transforms into the buffer, and publish the transforms on `tf` or `tf_static`.
 
         Transforms that the buffer rejects (with a log message) are not published. A message on
         `tf_static` contains all static transforms of the sender, the newest of each child frame,
@@ -498,7 +498,7 @@ class World:
         time: Stamp = 0,
         timeout: Duration | None = None,
     ) -> TransformStamped:
-        """Return the transform as soon as it is available; see `transform_wait`."""
+        """Return a transform as soon as the buffer has the transform; see `transform_wait`."""
         return await waiting.wait_for_transform(
             self.buffer, self.clock, target_frame, source_frame, time, timeout
         )
@@ -512,7 +512,7 @@ class World:
         fixed_frame: str,
         timeout: Duration | None = None,
     ) -> TransformStamped:
-        """Return the transform between two times; see `transform_wait`."""
+        """Return a transform between two times, as soon as available; see `transform_wait`."""
         return await waiting.wait_for_transform_full(
             self.buffer,
             self.clock,
@@ -612,7 +612,7 @@ class World:
         run(self.clock, live(self, until=until))
 
     def stop(self) -> None:
-        """End the run: `live` returns after the current step."""
+        """End the run: `live` cancels the nodes that still run, and returns."""
         if self._supervisor is not None:
             self._supervisor.stop()
 
@@ -627,7 +627,7 @@ class World:
         self._supervisor.fail(node, error)
 
     def report(self, owner: str, failure: Exception) -> None:
-        """Handle the exception of a listener: end the run if a node owns the listener, else log it.
+        """Handle a listener's exception: end the run if a node owns the listener, else log a text.
 
         Args:
             owner: Name of the listener's owner.

@@ -33,7 +33,7 @@ class GraphEntity:
         ros_type: Type, such as "tf2_msgs/msg/TFMessage"; "" for a node.
         quality: Quality of service; the default for a node.
         gid: Bytes that identify the entity, sent with the messages of a publisher.
-        type_hash: Hash of the type if it is announced; else "".
+        type_hash: Hash of the type; "" if no hash is announced.
     """
 
     kind: str
@@ -63,7 +63,7 @@ class Role(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Process:
-    """A tftool process in the session, as it announces itself.
+    """Announcement of a tftool process in the session.
 
     Attributes:
         domain: Number of the process's ROS domain.
@@ -192,7 +192,7 @@ class Graph:
             topic: Name of the message's topic.
 
         Returns:
-            The publisher; None if it is unknown or not unique.
+            The publisher; None for an unknown publisher, or several possible publishers.
         """
         unknown = []
         for one in self.entities(PUBLISHER, name=topic):

@@ -69,7 +69,7 @@ class WireClient(Protocol):
         Cancelling the wait withdraws the request.
 
         Raises:
-            LinkError: If there is no response, or the server refuses.
+            LinkError: If no response arrives, or the server sends an error.
         """
 
     def close(self) -> None:
@@ -77,7 +77,7 @@ class WireClient(Protocol):
 
 
 class Watcher(Protocol):
-    """Callbacks of a middleware to the session connection that uses it."""
+    """Callbacks from a middleware to the session connection."""
 
     def graph_changed(self, found: GraphEntity | Process | None, there: bool) -> None:
         """Handle an entity that was added (if `there`) or removed.

@@ -82,7 +82,7 @@ class Asking:
         """Send a request, and wait at most `timeout` seconds for the response.
 
         Raises:
-            LinkError: If there is no response, or the server refuses.
+            LinkError: If no response arrives, or the server sends an error.
         """
         # Announced with the first request, because every world knows all services, and the graph
         # would be full. A user's node announces its own client.
@@ -156,7 +156,7 @@ class ActionServer:
     """Server that offers one action of this process's world to other processes."""
 
     def __init__(self, link: LinkContext, node: str, name: str, kind: Any) -> None:
-        """Serve an action; the arguments are those of `serve_service`."""
+        """Serve an action; for the arguments see `serve_service`."""
         interface: str = kind.interface__
         node, base = node or link.main_node, f"{name}/_action"
         publish = link.middleware.publisher

@@ -50,9 +50,9 @@ class Link(LinkContext):
     def __init__(self, options: Options) -> None:
         """Join the processes of this machine, and processes on the networks that `options` names.
 
-        The constructor returns at once if there is no other process. No other process of this
-        machine can join until `attach`, `settle` or `close` is called, so that no two processes
-        decide at the same time whether to host.
+        The constructor returns at once if no other process exists. No other process of this machine
+        can join until `attach`, `settle` or `close` is called, so that no two processes decide at
+        the same time whether to host.
 
         Raises:
             LinkError: If the session's folder is unusable, or the middleware is missing or raises
@@ -79,7 +79,7 @@ class Link(LinkContext):
         """Allow other local processes to join from now on."""
         self.middleware.settle()
 
-    # Taking part
+    # Joining and leaving
 
     def attach(self, world: World, *, role: Role) -> None:
         """Share a world's topics, services and actions; call this inside the world's event loop.
@@ -135,7 +135,7 @@ class Link(LinkContext):
     def __exit__(self, *error: object) -> None:
         self.close()
 
-    # Keeping up with the world
+    # Changes of the world
 
     def _world_changed(self) -> None:
         """Share new topics at once, before their first message; share other changes a little later.
@@ -316,7 +316,7 @@ class Link(LinkContext):
                     "process a --domain of its own.",
                 )
 
-    # Keeping up with the others
+    # Changes of other processes
 
     def graph_changed(self, found: GraphEntity | Process | None, there: bool) -> None:
         """Handle an entity that was added (if `there`) or removed.

@@ -92,7 +92,7 @@ class TopicBridge:
         for sender in self._senders.values():
             sender.close()
 
-    # In
+    # Incoming messages
 
     def _subscribe(self, stated: Endpoint | None) -> Callable[[], None]:
         """Announce a subscription; if latched, also request the messages sent before."""
@@ -146,7 +146,7 @@ class TopicBridge:
         self._link.received += 1
         return value, self._link.endpoint(message.sender, self._topic.name, self._type)
 
-    # Out
+    # Outgoing messages
 
     def _send(self, value: Any) -> None:
         if value is self._inbound:

@@ -161,7 +161,7 @@ def carrot_offset(
 
 
 def require_period(period: Duration) -> Duration:
-    """Return a period if it is positive; else raise.
+    """Return `period` if positive; else raise an error.
 
     Raises:
         UsageError: If the period is not positive.
@@ -246,7 +246,8 @@ class Noise(Node):
             position: Standard deviation of each coordinate, in metres.
             angle: Standard deviation about each axis, in radians.
             drift: Standard deviation of x and y after one second of drift, in metres.
-            turn_drift: Standard deviation about z after one second of drift, in radians.
+            turn_drift: Standard deviation of the angle about z after one second of drift, in
+                radians.
             seed: Seed of the errors.
             period: Nanoseconds between two broadcasts.
 

@@ -1,4 +1,4 @@
-"""Node of the turtle tutorial that looks up a leader's frame and steers a turtle towards it."""
+"""Node of the turtle tutorial that steers a turtle towards a frame by transform lookups."""
 
 from typing import Any
 
@@ -19,7 +19,7 @@ TUTORIAL_SPAWN = (4.0, 2.0, 0.0)
 
 
 class Follower(Node):
-    """Node that spawns a turtle and steers it towards a frame by transform lookups.
+    """Node that spawns a turtle and steers the turtle towards a frame by transform lookups.
 
     With `delay`, the turtle drives to an earlier position of the leader. The lookup then takes the
     turtle's frame now and the leader's frame at the earlier time, connected through `fixed_frame`.

@@ -90,7 +90,8 @@ class RobotStatePublisher(Node):
             frame_prefix: Prefix of every frame's name, such as `left/`.
             publish_frequency: Largest rate in hertz at which a joint is broadcast; 0 for every
                 message.
-            ignore_timestamp: Whether to broadcast every message's frames, whatever its stamp.
+            ignore_timestamp: Whether to broadcast the frames of every message, even of messages
+                with old stamps.
             topics: Topics of joint states and of the description.
 
         Raises:
@@ -247,7 +248,7 @@ class JointStatePublisher(Node):
         return {} if self.robot is None else self.robot.positions(self._given)
 
     def move(self, joint: str, position: float) -> None:
-        """Set the position of a joint, and of the joints that mimic it.
+        """Set the position of a joint, and of the joints that mimic this joint.
 
         Raises:
             UsageError: If there is no such joint, or the joint cannot move.

@@ -100,7 +100,7 @@ class Player(Node):
         if not self._is_silent:
             self.publisher("clock", INTERFACES.message("rosgraph_msgs/Clock"), CLOCK_QUALITY)
 
-    # Where it is
+    # State of the playback
 
     @property
     def position(self) -> Stamp:

@@ -120,7 +120,7 @@ class Recorder:
             return False
         return self._everything or name in self._names
 
-    # This process's world
+    # Topics of this process's world
 
     def _begin_here(self) -> None:
         world = self._world
@@ -171,7 +171,7 @@ class Recorder:
 
         self._guarded(put)
 
-    # A session's
+    # Topics of a joined session
 
     def _listen(self, link: Link, name: str, ros_type: str, *, is_latched: bool) -> None:
         try:

@@ -53,7 +53,7 @@ Say = Callable[[Level, str], object]
 
 
 def require_turtle_name(name: str) -> str:
-    """Return a turtle's name if it can be part of topic names and a frame; else raise.
+    """Return a turtle's name if valid in the names of topics and frames; else raise an error.
 
     Raises:
         UsageError: If the name is not a letter or '_' followed by letters, digits and '_'.
@@ -184,7 +184,7 @@ class Turtle:
             draw: Function called with the strokes of teleports.
 
         Returns:
-            Stroke of the motion, to draw after the colour sensor was read; None if there is none.
+            Stroke of the motion, to draw after the colour sensor was read; None without a stroke.
         """
         if self._settled:
             return None

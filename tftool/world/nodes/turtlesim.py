@@ -120,7 +120,7 @@ class Turtlesim(Node):
             require_byte(value, name)
         super().set_parameter(name, value)
 
-    # Living
+    # Running
 
     async def run(self) -> None:
         """Simulate the turtles until the end of the run."""
@@ -183,7 +183,7 @@ class Turtlesim(Node):
             if stroke is not None:
                 self.trail.draw(stroke)
 
-    # Turtles come and go
+    # Adding and removing turtles
 
     def _spawn(self, place: Placement, name: str, now: Stamp) -> str:
         """Create a turtle; return its name, or "" if the name cannot be used."""
@@ -265,7 +265,7 @@ class Turtlesim(Node):
 
         await self._queue.ask(reset)
 
-    # Little things
+    # Helper functions
 
     def _is_holonomic(self) -> bool:
         return bool(self.get_parameter("holonomic"))

@@ -192,7 +192,7 @@ class Discovery:
 
     @property
     def is_complete(self) -> bool:
-        """Whether every participant has announced its endpoints, and its nodes if it has any."""
+        """Whether every participant has announced all its endpoints and nodes."""
         has_spoken = self._names.keys() <= self._speaking
         return has_spoken and self._informing.keys() <= self._nodes.keys()
 
@@ -208,7 +208,7 @@ class Discovery:
             self.look()
         return self._gids.get(writer, b"")
 
-    # Threads of the library's
+    # In threads of the library
 
     def _tell(self) -> None:
         self._changed()
@@ -224,7 +224,7 @@ class Discovery:
         self._will_look = False
         self.look()
 
-    # On the loop
+    # In the event loop
 
     def look(self) -> None:
         """Process the messages that the built-in topics have received."""
@@ -276,7 +276,7 @@ class Discovery:
             data = bytes(getattr(policies.get("Userdata"), "data", b""))
             self._informing[owner] = GID_SIZES[0] if names.hash_shown(data) else 0
             return
-        # Topics without ROS's prefixes are not ROS's.
+        # Topics without a prefix of ROS do not belong to ROS.
         part = names.ros_part(one.topic_name, one.type_name)
         kind = None if part is None else _KINDS.get((part.prefix, role))
         if part is None or kind is None:
@@ -338,7 +338,7 @@ class Discovery:
         if old is not None:
             self._report(old, False)
 
-    # What nodes say of themselves
+    # Announcements of other processes' nodes
 
     def _informed_by(self, form: Information) -> Callable[[DdsSample], None]:
         def informed(sample: DdsSample) -> None:
@@ -372,10 +372,10 @@ class Discovery:
         for key in [key for key, one in self._found.items() if one.participant == participant]:
             self._show(key)
 
-    # What we say
+    # Announcements of this process
 
     def show_node(self, name: str) -> Callable[[], None]:
-        """Announce one of this process's nodes; return a function that ends the announcement."""
+        """Announce a node of this process; return a function that ends the announcement."""
         self._own.setdefault(name, (set(), set()))
         self._say()
 
@@ -386,7 +386,7 @@ class Discovery:
         return hide
 
     def show_endpoint(self, node: str, role: str, gid: bytes) -> Callable[[], None]:
-        """Announce an endpoint of one of this process's nodes; return a function to withdraw it."""
+        """Announce an endpoint of a node of this process; return a function that withdraws it."""
         which = 1 if role == PUBLISHER else 0
         self._own.setdefault(node, (set(), set()))[which].add(gid)
         self._say()

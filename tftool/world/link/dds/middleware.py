@@ -52,7 +52,7 @@ class DdsMiddleware(Middleware):
     """This process in a ROS 2 graph over DDS; its session name is the GUID of its participant.
 
     `unanswering` is always empty, because DDS does not distinguish a stopped process from a missing
-    one. `tell_frames` does nothing: shell completion of frame names works with zenoh only.
+    process. `tell_frames` does nothing: shell completion of frame names works with zenoh only.
     """
 
     def __init__(self, options: Options, reach: DdsReach) -> None:
@@ -132,7 +132,7 @@ class DdsMiddleware(Middleware):
         self._discovery.start(self._changed)
         if watcher is not None:
             if not self._network.config:
-                # The library's thread calls this, so the text takes the way of a message.
+                # The library's thread calls this, so the text goes through the inbox like messages.
                 inbox = self._participant.inbox
                 stop = LIBRARY_LOG.listen(lambda sentence: inbox.put(self._complain, sentence))
                 self._participant.at_close(stop)
@@ -151,7 +151,7 @@ class DdsMiddleware(Middleware):
         self._readers.clear()
         self._participant.close()
 
-    # Shown entities
+    # Announcements of this process
 
     def process(self, process: Process) -> Callable[[], None]:
         """Announce this process; see `seam.Middleware.process`."""
@@ -234,7 +234,7 @@ class DdsMiddleware(Middleware):
         return stop
 
     def _asks_reliable(self, name: str, ros_type: str) -> bool:
-        """Return whether to request reliability: always for tf, else if all writers offer it."""
+        """Return whether to request reliability: for tf always, else if all writers offer this."""
         if name in ("tf", "tf_static"):
             return True
         # A reader that requests more than a writer offers receives nothing from it.
@@ -325,7 +325,7 @@ class DdsMiddleware(Middleware):
 
         return leave
 
-    # What others show
+    # Announcements of other processes
 
     def _changed(self, found: GraphEntity | Process | None, there: bool) -> None:
         self.report(found, there)

@@ -1,8 +1,8 @@
 """This process as a DDS participant: its readers and writers, and their threads.
 
-This module imports `cyclonedds`, so it is imported only when a process joins a DDS domain.
-Callbacks in the library's threads go through an inbox to the event loop. Written data goes through
-an outbox.
+This module imports `cyclonedds`. Therefore the module is imported only when a process joins a DDS
+domain. Callbacks in the library's threads go through an inbox to the event loop. Written data goes
+through an outbox.
 """
 
 import contextlib
@@ -43,11 +43,10 @@ _NUMBER: Final = re.compile(r"[0-9a-f.]*\d[0-9a-f.]*")
 class LibraryLog:
     """Error output of the DDS library, read through a pipe and passed to listeners.
 
-    The library has no function that redirects its errors: a domain writes to C's `stderr` as it was
-    when the domain was created. While a domain is created, the variable `stderr` refers to our
-    pipe. The library's end of the pipe never blocks, and text that does not fit is dropped: the
-    library holds locks while it writes, so it must wait neither for space in the pipe nor for
-    Python's own lock.
+    The library has no function that redirects errors. A domain keeps the value that C's variable
+    `stderr` has when the domain is created. Therefore `stderr` refers to a pipe during this time.
+    Writing to the pipe never blocks, and text that does not fit is dropped, because the library
+    holds locks while it writes.
     """
 
     def __init__(self) -> None:

@@ -1,4 +1,4 @@
-"""Options for a DDS connection, and checks that they do not contradict each other."""
+"""Options for a DDS connection, and checks for contradictions between options."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -210,7 +210,7 @@ def _ways_to(peers: Iterable[str]) -> tuple[str, ...]:
     """Return the addresses of this machine from which packets to `peers` are sent; send no packet.
 
     Raises:
-        LinkError: If there is no route to a peer.
+        LinkError: If no route leads to a peer.
     """
     found = []
     for peer in peers:

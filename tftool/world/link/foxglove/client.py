@@ -1,7 +1,7 @@
 """Client of one Foxglove server in its own thread: connects, subscribes, and reconnects.
 
-This module imports `websockets`, so it is imported only when a process connects to a server.
-Received data goes through an inbox to the event loop of the world.
+This module imports `websockets`. Therefore the module is imported only when a process connects to a
+server. Received data goes through an inbox to the event loop of the world.
 """
 
 import asyncio
@@ -140,7 +140,7 @@ class FoxgloveClient:
         self._thread = threading.Thread(target=self._run, name="tftool foxglove", daemon=True)
         self._thread.start()
 
-    # On any thread
+    # In any thread
 
     def wait(self) -> None:
         """Wait until the server has announced its channels.
@@ -164,7 +164,7 @@ class FoxgloveClient:
             yield self._state
 
     def want(self, name: str, ros_type: str, *, again: bool = False) -> None:
-        """Subscribe to a topic, now or when the server announces it.
+        """Subscribe to a topic, now or when the server announces the topic.
 
         Args:
             name: Name of the topic, without a leading slash.
@@ -188,7 +188,7 @@ class FoxgloveClient:
         with contextlib.suppress(RuntimeError):
             self._loop.call_soon_threadsafe(function, *arguments)
 
-    # On our thread
+    # In the client's thread
 
     def _run(self) -> None:
         asyncio.set_event_loop(self._loop)
@@ -366,9 +366,9 @@ class FoxgloveClient:
     def _ask_again_later(self, sentence: str) -> bool:
         """Subscribe again later if `sentence` refuses a subscription; return whether it does.
 
-        Servers made with Foxglove's SDK announce a channel slightly before they accept
-        subscriptions to it. The server refuses a quick subscription, and without a second
-        subscription no message would ever arrive.
+        Servers made with Foxglove's SDK announce a channel slightly before the channel accepts
+        subscriptions. The server refuses a quick subscription, and without a second subscription no
+        message would ever arrive.
         """
         found = _REFUSED.search(sentence)
         channel = int(found[1] or found[2]) if found else None

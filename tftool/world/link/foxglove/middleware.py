@@ -134,7 +134,7 @@ class FoxgloveMiddleware(Middleware):
     def _warn(self, sentence: str) -> None:
         self.say_once(sentence, sentence)
 
-    # What the server shows
+    # Announcements of the server
 
     def _changed(self, _: None) -> None:
         """Update the graph from the server's announcements."""

@@ -66,7 +66,7 @@ class FoxgloveChannel:
         encoding: Encoding of the messages: "cdr", "ros1", "protobuf", "json".
         type: Name of the type, as the server writes it.
         schema_encoding: Language of the definition: "ros2msg", "ros1msg", "protobuf".
-        definition: Definition of the type; "" if it is missing or was too long to store.
+        definition: Definition of the type; "" for a missing definition, or one that is too long.
     """
 
     number: int

@@ -58,7 +58,7 @@ class ZenohMiddleware(Middleware):
     """
 
     def __init__(self, options: Options, reach: ZenohReach) -> None:
-        """Join the graph; the constructor returns at once if there is no other process.
+        """Join the graph; the constructor returns at once if no other process exists.
 
         No other process of this machine can join until `settle` or `close` is called, so that no
         two processes decide at the same time whether to host.
@@ -382,7 +382,7 @@ def _no_answer_at(reach: ZenohReach) -> str:
 
 
 def _await(condition: Callable[[], bool], patience: float) -> bool:
-    """Poll until `condition` is true, at most `patience` seconds; return whether it became true."""
+    """Poll until `condition` is true, at most `patience` seconds; return the last result."""
     clock, pause = WallClock(), threading.Event()
     # The time is measured, because a check of the condition may take long.
     while not (held := condition()) and clock.elapsed() < seconds(patience):

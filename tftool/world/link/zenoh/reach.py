@@ -1,4 +1,4 @@
-"""Options for a zenoh connection, and checks that they do not contradict each other."""
+"""Options for a zenoh connection, and checks for contradictions between options."""
 
 import re
 from collections.abc import Mapping

@@ -242,7 +242,7 @@ def _make_private(path: Path) -> None:
     """Create a folder that only its owner may enter, or check that an existing folder is private.
 
     Raises:
-        LinkError: If the folder cannot be created, or other users may enter it.
+        LinkError: If the folder cannot be created, or other users may enter the folder.
     """
     try:
         path.mkdir(mode=0o700, parents=True, exist_ok=True)

@@ -18,7 +18,7 @@ from tftool.world.link.zenoh.rendezvous import PASSWORDS, USER, Rendezvous
 
 
 class Sample(NamedTuple):
-    """Received message with its attachment, both as bytes."""
+    """Received message: its payload and its attachment, as bytes."""
 
     payload: bytes
     attachment: bytes
@@ -80,8 +80,7 @@ class Wire:
 
     Attributes:
         zid: Id of the session, in hexadecimal.
-        oversized: Number of received messages that were dropped because they exceeded the size
-            limit.
+        oversized: Number of received messages that were dropped because of the size limit.
     """
 
     def __init__(self, reach: ZenohReach, place: Rendezvous | None) -> None:
@@ -236,7 +235,7 @@ class Wire:
             timeout: Longest wait in seconds.
 
         Raises:
-            LinkError: If no server responds, or the server refuses.
+            LinkError: If no server responds, or a server sends an error.
         """
         answer: asyncio.Future[bytes] = asyncio.get_running_loop().create_future()
         silent = f"no server answered within {timeout:g} s, or all have left"
@@ -384,7 +383,7 @@ def open_zenoh(zenoh: Any, reach: ZenohReach, place: Rendezvous | None) -> Any:
 
 
 def settings(reach: ZenohReach, place: Rendezvous | None) -> dict[str, Any]:
-    """Return the settings for zenoh; with zenoh's defaults, it would listen on every interface."""
+    """Return the settings for zenoh, whose defaults would listen on every interface."""
     outward = bool(reach.listen or reach.connect)
     found: dict[str, Any] = {
         # A router forwards between this machine's processes, which are connected
