@@ -61,7 +61,7 @@ class Mistake:
     """One mistake in a text file, with its position.
 
     Attributes:
-        file: Name of the file as it was given.
+        file: Name of the file, as the user gave it.
         line: Number of the line, from 1.
         column: Number of the column, from 1.
         text: The fault, as a sentence without its full stop.
@@ -86,7 +86,7 @@ class Mistake:
     def at(
         cls, file: str, lines: Sequence[str], line: int, column: int, text: str, *, width: int = 1
     ) -> "Mistake":
-        """Return a mistake with up to 120 characters of its source line and carets below them.
+        """Return a mistake with up to 120 characters of the source line, and carets below.
 
         Args:
             file: Name of the file, as the user gave it.
@@ -150,7 +150,7 @@ class DescriptionError(DocumentError):
 
 
 def failure_text(error: BaseException) -> str:
-    """Format an exception in one line: its type, text, and the file and line that raised it.
+    """Format an exception in one line: type, text, and the file and line that raised the exception.
 
     The line is the innermost line of the user's code, else the innermost line of the traceback. For
     an exception of tftool's own classes, only a line of the user's code is named.
@@ -201,8 +201,8 @@ class TransformException(TftoolError):
     The text is exactly the text of tf2's exception; `remedy` says what to do.
 
     Attributes:
-        frame: The frame that causes the error, because it is unknown, misspelt or without data;
-            None if no single frame causes the error.
+        frame: The unknown or misspelt frame, or the frame without data, that causes the error; None
+            if no single frame causes the error.
         target: The target frame of the lookup; None if unknown.
         source: The source frame of the lookup; None if unknown.
     """

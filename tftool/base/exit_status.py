@@ -1,6 +1,6 @@
 """Exit statuses of the `tftool` command.
 
-This module imports nothing large, because the command needs it before it can handle a signal.
+This module imports nothing large, because the command imports it before signals can be handled.
 """
 
 from enum import IntEnum

@@ -83,7 +83,7 @@ def read_named_text(path: Path) -> str:
 
 
 def reader_there(path: str, flags: int) -> int:
-    """Open a path for writing; raise an error at once if it is a pipe without a reader.
+    """Open a path for writing; raise an error at once for a pipe without a reader.
 
     This function is used as the argument `opener` of Python's `open`.
 

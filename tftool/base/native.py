@@ -1,7 +1,7 @@
 """Import of native (C) modules, and allocation of memory in large pages.
 
 Native modules are built with the package if there is a C compiler. Without native modules,
-everything runs in plain Python with equal results. `TFTOOL_PURE=1` switches them off.
+everything runs in plain Python with equal results. `TFTOOL_PURE=1` switches the native modules off.
 """
 
 import mmap

@@ -13,7 +13,7 @@ class Judgement:
         expected: Description of a passing value, for example "below 0.5 m".
         found: The value found.
         at: Time of the test in seconds from the start; None if the run ended before that time.
-        line: Line of the file that contains the statement; 0 if there is no file.
+        line: Line of the file that contains the statement; 0 without a file.
     """
 
     subject: str
@@ -35,8 +35,8 @@ class Report:
         lasted: Duration of the run in seconds, on the clock of the run.
         failure: Reason why the run ended early; "" for a complete run.
         warnings: Warnings about the scenario, as sentences.
-        why: Findings of the doctor about a failed run, as sentences, with the cause of the others
-            first.
+        why: Findings of the doctor about a failed run, as sentences, with the cause of the other
+            findings first.
     """
 
     name: str

@@ -94,7 +94,7 @@ def matrix_from_quaternion(quaternion: Iterable[float]) -> Matrix3:
 def quaternion_from_matrix(matrix: Sequence[Sequence[float]]) -> Quaternion:
     """Return the quaternion of a 3×3 matrix, or of the upper left of a 4×4 matrix.
 
-    The sign of the quaternion is the one that tf2 computes; see `quaternions.canonical`.
+    The quaternion has the sign that tf2 computes; see `quaternions.canonical`.
 
     Raises:
         ValueError: If the matrix is not a proper rotation (within 1e-6).

@@ -66,7 +66,7 @@ class Placement(NamedTuple):
 
 
 class Turning(NamedTuple):
-    """Result of one update of turtlesim's rotate action.
+    """Result of one tick of turtlesim's rotate action.
 
     Attributes:
         remaining: Signed angle from the present heading to the goal, from -π to π, in rad.

@@ -42,7 +42,7 @@ def covariance(a_from_b: Transform, covariance: Sequence[float]) -> Covariance:
     """Rotate a 6×6 covariance: each of its 3×3 blocks B becomes R·B·Rᵀ for the rotation R.
 
     Raises:
-        ValueError: If there are not 36 numbers.
+        ValueError: If `covariance` does not have 36 numbers.
     """
     if len(covariance) != 36:
         raise ValueError(f"a covariance must be 36 numbers, not {len(covariance)}")

@@ -85,7 +85,7 @@ def unit(quaternion: Quad) -> Quad:
 
 
 def canonical(quaternion: Quad) -> Quad:
-    """Return a unit quaternion with the sign that tf2 would give it.
+    """Return a unit quaternion with the sign that tf2 would compute.
 
     tf2 computes quaternions from rotation matrices. So w is positive for turns below 120°. For
     larger turns the largest imaginary part is positive, and w may be negative.

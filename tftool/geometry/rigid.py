@@ -94,7 +94,7 @@ def _three(numbers: tuple[object, ...]) -> tuple[float, float, float]:
 
 @refuses_arithmetic
 class Quaternion(NamedTuple):
-    """A rotation as a quaternion in xyzw order; of unit length unless it comes from a message."""
+    """Rotation as a quaternion in xyzw order; of unit length, except if taken from a message."""
 
     x: float
     y: float
@@ -131,8 +131,9 @@ class _Parts(NamedTuple):
 class Transform(_Parts):
     """A rotation followed by a translation, as an immutable, hashable value.
 
-    The quaternion is stored unchanged. Calculations normalise it if it is finite and not zero. A
-    zero quaternion, which a message may have, makes results NaN.
+    The quaternion is stored unchanged. Calculations use the normalised quaternion, if the
+    quaternion is finite and not zero. A zero quaternion, which a message may have, makes results
+    NaN.
 
     Attributes:
         translation: `Vector3`, metres.
@@ -149,7 +150,7 @@ class Transform(_Parts):
         """Create a transform from a translation (three numbers) and a quaternion (four numbers).
 
         Raises:
-            ValueError: If there are not three and four numbers, or the quaternion is zero.
+            ValueError: If the numbers are not three and four, or the quaternion is zero.
         """
         turn = _floats(rotation, 4, "rotation")
         if not any(turn):

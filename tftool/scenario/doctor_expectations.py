@@ -96,7 +96,7 @@ def rules_beside(path: str | Path) -> tuple[DoctorRules, Path | None]:
     """Return the rules beside a recording (`run.doctor.yaml` beside `run.mcap`), and their file.
 
     Raises:
-        InputError: If the file cannot be read; a `ScenarioError` lists every mistake in it.
+        InputError: If the file cannot be read; a `ScenarioError` lists every mistake in the file.
     """
     recording = Path(path)
     for name in (f"{recording.name}{ENDING}", f"{recording.stem}{ENDING}"):

@@ -69,7 +69,7 @@ class Reading:
             return UNREAD
 
     def whole(self, values: Iterable[T]) -> list[T]:
-        """Return the values; raise Unreadable if one of them is `UNREAD`."""
+        """Return the values as a list; raise Unreadable if a value is `UNREAD`."""
         found = list(values)
         if any(value is UNREAD for value in found):
             raise Unreadable
@@ -133,7 +133,7 @@ class Reading:
         return node.items
 
     def record(self, node: Node, known: Mapping[str, Key], what: str) -> dict[str, Any]:
-        """Read a mapping with known keys; return each key's value, or its default if it is missing.
+        """Read a mapping with known keys; return a value, perhaps the default, for each known key.
 
         Args:
             node: The mapping.
@@ -191,7 +191,7 @@ def reads(read: Reader, *default: Any, key: str | None = None, beside: bool = Fa
     Args:
         read: Reader of the value.
         default: Default value; without a default, the key is required.
-        key: Key in the scenario, if it is not a valid name in Python.
+        key: Key in the scenario, if different from the field's name.
         beside: Whether the field is written next to the key of the class, not inside that key's
             value.
     """
@@ -288,7 +288,7 @@ def listed(words: Iterable[str]) -> str:
 
 
 def quoted(text: str) -> str:
-    """Quote a value from a file for a message, shortened if it is long."""
+    """Quote a value from a file for a message; shorten a long value."""
     shown = visible(text)
     return f"'{shown[:60]}…'" if len(shown) > 60 else f"'{shown}'"
 

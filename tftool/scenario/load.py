@@ -62,7 +62,7 @@ def load(
             skipped; a user's file is always read completely, to find its mistakes.
 
     Raises:
-        InputError: If the file cannot be read; a `ScenarioError` lists every mistake in it.
+        InputError: If the file cannot be read; a `ScenarioError` lists every mistake in the file.
         UsageError: If an argument is given that the scenario does not declare.
     """
     expects = expects or not builtin.is_shipped(Path(path))
@@ -97,7 +97,7 @@ class _ScenarioReader:
     Attributes:
         given: Arguments from the command line.
         expects: Whether expectations are read.
-        duration: Duration of the scenario; None until it is read.
+        duration: Duration of the scenario; None before the duration is read.
         names: Names of the scenario's nodes; None until all nodes are read.
         looks: Number of judgements in the run, for the expectations read so far.
         not_a_tree: Positions of nodes whose edges contradict each other (two parents, or a loop).
@@ -342,7 +342,7 @@ class _ScenarioReader:
         return tuple(one for several in reading.whole(read) for one in several)
 
     def expectation(self, node: Node, reading: Reading) -> tuple[Expectation, ...]:
-        """Read one expectation; return one `Expectation` for each of its times."""
+        """Read an expectation; return one `Expectation` for each time of judging."""
         # Imported here, because most commands judge no expectations.
         from tftool.scenario.questions import SUBJECTS
 

@@ -97,7 +97,7 @@ class NodeKind:
     """Kind of node: readers of its parameters, and a function that creates the node.
 
     Attributes:
-        make: Class of the node, or a function that creates it.
+        make: Class of the node, or a function that creates the node.
         fields: Reader and default of each parameter, by name.
     """
 
@@ -114,7 +114,7 @@ class NodeKind:
         """Describe a kind of node.
 
         Args:
-            make: Class of the node, or a function that creates it.
+            make: Class of the node, or a function that creates the node.
             usual: Names of parameters with a common reader in `USUAL`, separated by blanks.
             required: Parameters that a scenario must set, even if the class has a default.
             readers: Readers of further parameters, by name.

@@ -115,7 +115,7 @@ class Subject(Declared):
         """Return the answer at the current time.
 
         Raises:
-            TransformException: If there is no answer.
+            TransformException: If a lookup fails, so that the question has no answer.
         """
         raise NotImplementedError
 
@@ -402,7 +402,7 @@ class PoseOf(Subject):
     turtle: str = reads(values.turtle)
 
     def answer(self, scene: ScenarioWorld) -> Any:
-        """Return the turtle's last Pose message; None if there is none."""
+        """Return the turtle's last Pose message; None before the first message."""
         topic = scene.world.topics().get(f"{self.turtle}/pose")
         return topic.latest if topic is not None and topic.kind is Pose else None
 

@@ -342,7 +342,7 @@ class BroadcastStatic(FrameAction):
 
 @declare(ACTIONS, "stop", short="node")
 class StopNode(Action):
-    """Action that stops a node and removes it from the world."""
+    """Action that stops a node, and removes the node from the world."""
 
     node: str = reads(values.name("a node"))
 

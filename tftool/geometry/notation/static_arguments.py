@@ -113,8 +113,8 @@ def of_line(line: str, *, frames: Sequence[str] = ()) -> StaticArguments | None:
     """Parse a shell line with static_transform_publisher, of ROS 2 or ROS 1.
 
     Args:
-        line: The line. If it contains "static_transform_publisher", only the rest of the line is
-            parsed.
+        line: The line. Only the part after the word "static_transform_publisher" is parsed; without
+            this word, the whole line.
         frames: Parent and child for a line without `--frame-id` or `--child-frame-id`.
 
     Returns:
