@@ -47,7 +47,7 @@ def severity_of(model: Model, track: Track, hit: Hit, limits: Limits) -> Severit
 
 
 def fed_twice(track: Track, hit: Hit, limits: Limits) -> Hit | None:
-    """Return the hit about an edge whose samples alternate between one fixed pose and others.
+    """Return the hit about an edge whose samples alternate between one fixed pose and other poses.
 
     Return None for other edges. A usual cause is a robot_state_publisher with two sources of joint
     states, if one source sends constant values.
@@ -221,7 +221,7 @@ def unnamed_conflict(track: Track, limits: Limits) -> Hit | None:
 
 
 def _turns_one_way(track: Track, places: Places) -> bool:
-    """Whether an edge only turns, and always in one direction, so that one motion explains it."""
+    """Whether an edge has a constant translation and always turns in the same direction."""
     if not is_revolute(track):
         return False
     turned = unit(track.rotations[places])
@@ -349,7 +349,7 @@ def _conflict(
     """Return the hit about two publishers of one edge.
 
     Args:
-        track: The edge that both publish.
+        track: The edge with two publishers.
         names: Names of the publishers.
         owned: Rows of the first publisher's samples, shape (n,), and for each of these samples the
             row of the second publisher's sample to compare with, shape (n,).

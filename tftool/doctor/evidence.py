@@ -98,7 +98,7 @@ class Evidence:
 
     @property
     def lacks_clock(self) -> bool:
-        """Whether the source is a recording without `/clock`, so stamps near 1970 may be real."""
+        """Whether the source is a recording without `/clock`, so small stamps may be real."""
         return self.recorded and not len(self.clock[0])
 
 
@@ -413,14 +413,14 @@ def evidence_of_log(log: TransformLog, name: str, kind: str, start: Stamp, end: 
 
 
 def evidence_of_frames(frames: Frames, scope: Scope | None = None) -> Evidence:
-    """Return the evidence in opened frames, whatever their source.
+    """Return the evidence in opened frames of any source.
 
     Args:
         frames: The frames of a recording, a scenario, a session or a description.
         scope: Part of a recording, and a description; None for the whole recording.
 
     Raises:
-        InputError: See `evidence_of_recording`.
+        InputError: If a recording cannot be read, a topic is missing, or the part is empty.
     """
     if frames.recording is not None:
         return evidence_of_recording(frames.recording, scope)

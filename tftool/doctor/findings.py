@@ -27,7 +27,7 @@ STALE_AFTER = 0.5
 
 
 class Severity(Enum):
-    """Severity of a finding, worst first."""
+    """Severity of a finding; the worst severity is the first member."""
 
     ERROR = "error"
     WARNING = "warning"
@@ -86,10 +86,8 @@ class Finding:
         frames: Names of the frames concerned.
         topics: Names of the topics concerned.
         publishers: Names of the nodes concerned, if known.
-        since: Log time of the first evidence, or its stamp without log times; None if the fault
-            has no time.
-        until: Log time of the last evidence, or its stamp without log times; None if the fault
-            has no time.
+        since: Log time (in a buffer, stamp) of the first evidence; None if the fault has no time.
+        until: Log time (in a buffer, stamp) of the last evidence; None if the fault has no time.
         count: Number of occurrences.
         facts: Values used in the texts, by name; stamps and durations in whole nanoseconds.
         evidence: Observations, one line each.

@@ -404,7 +404,10 @@ def single_sample(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _is_sibling(track: Track, other: Track) -> bool:
-    """Whether `other` has many samples, the parent of `track` and a similar child, as marker_7."""
+    """Whether `other` is an object of the same kind as `track` that was detected often.
+
+    The edges then have one parent, and children such as marker_7 and marker_12.
+    """
     alike = (other.parent, family(other.child)) == (track.parent, family(track.child))
     return alike and len(other.stamps) >= _OFTEN
 

@@ -149,7 +149,7 @@ def _named(words: Sequence[str]) -> list[str]:
     """Return the ids of the selected checks; each word is a check's id or an area.
 
     Raises:
-        UsageError: If a word is neither.
+        UsageError: If a word is neither an id nor an area.
     """
     areas = {area.value.replace(" ", "-"): area for area in Area}
     found: list[str] = []
@@ -242,7 +242,7 @@ def _findings(
 def _cause_of(
     number: int, hits: list[tuple[Check, Hit]], of_check: Mapping[str, Sequence[int]]
 ) -> str | None:
-    """Return the id of the finding that explains a hit; None if there is none.
+    """Return the id of the finding that explains a hit; None if no finding explains the hit.
 
     If several findings could explain the hit, the first finding without a cause of its own is used.
 

@@ -72,7 +72,17 @@ class Remedy:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TraceResult:
-    """Result of a traced lookup, from which the reason for a failure is derived."""
+    """Result of a traced lookup, from which the reason for a failure is derived.
+
+    Attributes:
+        trace: The lookup.
+        way: Edges of the path from source to target; None without a path.
+        links: State of each edge in the buffer.
+        refusing: Index of the failing edge; None if no edge fails.
+        begin: First log time at which the lookup succeeds; None for never.
+        end: Last log time at which the lookup succeeds; None for never, or until the end.
+        available: Whether the lookup succeeds.
+    """
 
     trace: LookupTrace
     way: list[Track] | None
@@ -85,7 +95,14 @@ class TraceResult:
 
 @dataclass(frozen=True, slots=True)
 class Reason:
-    """Reason for a lookup's success or failure, with sentences and remedies."""
+    """Reason for a lookup's success or failure.
+
+    Attributes:
+        cause: Kind of the reason.
+        why: The reason in sentences.
+        remedies: Remedies, the smallest first.
+        useless: Sentences about common attempts that do not help.
+    """
 
     cause: Cause
     why: tuple[str, ...]

@@ -23,7 +23,7 @@ _MOUNTED = frozenset(
 
 @dataclass(frozen=True, slots=True)
 class Join:
-    """A missing transform, with the evidence for it.
+    """Proposal for a missing transform.
 
     Attributes:
         edge: Parent and child to publish; None if unknown.

@@ -96,7 +96,7 @@ class Lap:
 
 @dataclass(frozen=True, slots=True)
 class Tree:
-    """Frames that are connected by the newest edges.
+    """Tree of the frames that are connected by the edges to their newest parents.
 
     Attributes:
         root: The frame without a parent; in a loop, one of the frames of the loop.
@@ -265,7 +265,7 @@ class Model:
 
     @cached_property
     def described(self) -> frozenset[str]:
-        """Names of the frames that the robot description defines; empty without a description."""
+        """Names of the frames of all links in the description; empty without a description."""
         robot = self.evidence.robot
         return frozenset(() if robot is None else (self.prefix + link for link in robot.links))
 

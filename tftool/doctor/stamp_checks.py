@@ -317,7 +317,7 @@ def old_data(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _newest_before(tracks: list[Track]) -> tuple[Stamps, Stamps]:
-    """Return all stamps in order of arrival, and the newest stamp up to each arrival.
+    """Return all stamps in order of arrival, and for each arrival the newest stamp so far.
 
     Stamps of a simulation's clock and of the wall clock are compared separately.
     """

@@ -85,9 +85,9 @@ class Stream:
 
     @cached_property
     def wild(self) -> Mask:
-        """Mask of stray stamps, more than an hour off their neighbours, shape (n,).
+        """Mask of single stamps that differ by more than an hour from their neighbours, shape (n,).
 
-        If more than 1 % of the stamps differ, the mask is False: the stamps come from two clocks.
+        The mask is False if more than 1 % of the stamps differ, as with two clocks.
         """
         far = np.zeros(len(self.stamps), dtype=np.bool_)
         if len(far) < 3:
@@ -253,7 +253,7 @@ class Track(Stream):
 
     @cached_property
     def steps(self) -> Stamps:
-        """Differences between consecutive sorted stamps without zero differences, nanoseconds."""
+        """Positive differences between consecutive sorted stamps, nanoseconds."""
         steps = self.sorted_stamps[1:] - self.sorted_stamps[:-1]
         positive: Stamps = steps[steps > 0]
         return positive
@@ -265,9 +265,9 @@ class Track(Stream):
 
     @cached_property
     def first_arrivals(self) -> Stamps:
-        """First arrival of a sample that is at least as new as each of `sorted_stamps`.
+        """For each of `sorted_stamps`, the first arrival of a sample that is at least as new.
 
-        Times on the clock of the stamps, nanoseconds, shape (k,).
+        The times are on the clock of the stamps, nanoseconds, shape (k,).
         """
         arrivals = self.arrivals[self.by_stamp]
         earliest: Stamps = np.minimum.accumulate(arrivals[::-1])[::-1]
@@ -434,7 +434,11 @@ def is_spatial(kind: str) -> bool:
 
 
 def unsorted_share(stamps: Stamps) -> int:
-    """Count the stamps, in order of arrival, that are older than a stamp before."""
+    """Count the stamps that are older than a stamp that arrived earlier.
+
+    Args:
+        stamps: Stamps in order of arrival, shape (n,).
+    """
     if len(stamps) < 2:
         return 0
     return int(np.count_nonzero(stamps[1:] < np.maximum.accumulate(stamps)[:-1]))

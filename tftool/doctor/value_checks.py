@@ -269,7 +269,7 @@ def _jump(model: Model, track: Track, places: Places, limits: Limits) -> Hit | N
 
 
 def _look(model: Model, edge: Edge, before: Stamp, after: Stamp) -> tuple[Fix, ...]:
-    """Return remedies with the commands that print a pose before and after a jump."""
+    """Return remedies with the commands that print the pose before a jump and the pose after it."""
     echo = f"tftool echo {quoted(edge[0])} {quoted(edge[1])} RECORDING --at"
     # A small number is seconds since the start of the recording, not a stamp.
     begin = model.epoch if after < SIMULATED_BELOW else 0

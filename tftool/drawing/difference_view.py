@@ -1,4 +1,4 @@
-"""Differences of two frame trees, and errors of a trajectory, as text lines and as JSON."""
+"""Differences of two frame trees, and errors of a trajectory, as text and as JSON."""
 
 from typing import Final
 

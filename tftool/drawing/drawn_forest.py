@@ -1,4 +1,4 @@
-"""Order of the frames in a drawing: children below parents, with tree lines and facts of each row.
+"""Order of the frames in a drawing of trees, with the tree lines and the facts of each frame.
 
 The frames in a buffer form trees, but data from other sources may contain loops. So drawings also
 end if a frame is its own ancestor.

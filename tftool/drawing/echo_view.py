@@ -36,9 +36,9 @@ def block(
 
     Args:
         found: Result of a lookup.
-        precision: Decimals of every number.
+        precision: Number of decimals.
         with_distance: Whether to add a line with the length of the translation.
-        quaternion_tag: Text after "Quaternion" in newer releases: " (xyzw)".
+        quaternion_tag: Text after "Quaternion": " (xyzw)" as in newer releases of tf2_echo.
 
     Returns:
         Lines, each with its newline.

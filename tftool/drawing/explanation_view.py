@@ -221,7 +221,7 @@ def _exactly(stamp: Stamp) -> str:
 
 
 def as_object(found: Explanation) -> dict[str, Any]:
-    """Return an explanation as a mapping, for --json, with whole nanoseconds and exact names."""
+    """Return an explanation as a mapping, for --json; times in nanoseconds, unescaped names."""
     return {
         "schema": SCHEMA,
         "target": found.target,

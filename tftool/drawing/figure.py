@@ -169,7 +169,7 @@ def write(
     xy: bool = False,
     dark: bool = False,
 ) -> None:
-    """Write a figure of some trajectories to a file, in one of `FORMATS`.
+    """Write a figure of trajectories to a file, in the format `form`, one of `FORMATS`.
 
     Raises:
         UsageError: If the extra `plot` is not installed.
@@ -181,7 +181,7 @@ def write(
 def write_panels(
     drawn: Sequence[PlotPanel], title: str, file: BinaryIO, form: str, *, dark: bool = False
 ) -> None:
-    """Write panels below a title to a file as one figure, in one of `FORMATS`.
+    """Write a figure of panels below a title to a file, in the format `form`, one of `FORMATS`.
 
     Raises:
         UsageError: If the extra `plot` is not installed.

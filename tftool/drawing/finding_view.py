@@ -114,7 +114,7 @@ def _told(finding: Finding, *, verbose: bool) -> list[RenderableType]:
 
 
 def head(model: Model) -> str:
-    """Return a line with the source's name, duration, and numbers of topics, frames and so on."""
+    """Return a line about the source: name, duration, and numbers of topics and frames."""
     material = model.evidence
     facts = [material.kind]
     if material.end > material.start and material.timed:
@@ -240,7 +240,7 @@ def counted(findings: Sequence[Finding]) -> str:
 
 
 def brief(diagnosis: Diagnosis) -> str:
-    """Return a line about a diagnosis, to print below another command's output."""
+    """Return one line about a diagnosis, which other commands print below their output."""
     causes = [finding for finding in diagnosis.findings if finding.because_of is None]
     ids = ", ".join(dict.fromkeys(one.id for one in causes if one.severity is not _CALM))
     if not ids:
@@ -444,7 +444,7 @@ def _general(text: str) -> str:
 
 
 def as_object(diagnosis: Diagnosis) -> dict[str, Any]:
-    """Return a diagnosis as a mapping, for --json, with whole nanoseconds and exact names."""
+    """Return a diagnosis as a mapping, for --json; times in nanoseconds, unescaped names."""
     material = diagnosis.model.evidence
     return {
         "schema": SCHEMA,

@@ -81,7 +81,7 @@ def pieces(
     Args:
         snapshot: Frames to draw.
         ascii_only: Whether to draw the branches in ASCII.
-        moving: Frames whose joint moves, if the frames are of a robot description; else None.
+        moving: Frames of a robot description that a joint moves; None for other frames.
         marks: Ids of the doctor's findings about each frame.
 
     Yields:
@@ -187,7 +187,7 @@ def _plain(value: object) -> str:
 
 
 def facts(info: FrameInfo) -> tuple[str, ...]:
-    """Return the facts of the edge from a frame to its parent, one for each of `HEADINGS`."""
+    """Return the facts about a frame's edge to its parent, one fact for each of `HEADINGS`."""
     if info.is_static:
         always = ("static", visible(info.authority or NONE))
         return (*always, *(NONE for _ in HEADINGS[3:]))
@@ -353,7 +353,7 @@ def compact(
         snapshot: Frames to draw.
         width: Width in cells.
         ascii_only: Whether to draw the tree lines in ASCII.
-        moving: Frames whose joint moves, if the frames are of a robot description; else None.
+        moving: Frames of a robot description that a joint moves; None for other frames.
         marks: Ids of the doctor's findings about each frame.
         order: Order of the rows; tree lines are drawn only in the tree's own order.
         wanted: Part of the names of frames to show; a tree shows their ancestors too.
@@ -403,7 +403,7 @@ def _of_robot(branch: Branch, moving: Collection[str]) -> Branch:
 
 
 def _told(snapshot: Snapshot, moving: Collection[str] | None) -> str:
-    """Return a few words above the tree: the time, or the number of joints that move."""
+    """Return the text above a tree: the time, or for a description the number of moving joints."""
     if moving is not None:
         return f"{len(moving)} of {max(len(snapshot.frames) - 1, 0)} joints move"
     zone = " UTC" if snapshot.now >= SIMULATED_BELOW else ""
@@ -438,7 +438,7 @@ def _pruned(forest: Forest, kept: Collection[str]) -> Forest:
 
 
 def _key(info: FrameInfo, order: TreeOrder) -> tuple[object, ...]:
-    """Return the sort key of a frame: fast or old frames first, static frames last."""
+    """Return the key by which frames are sorted: high rates or ages first, static last."""
     still = info.is_static or info.parent is None
     if order is TreeOrder.rate:
         return (still, -info.rate if info.samples > 1 else 0.0, info.frame)

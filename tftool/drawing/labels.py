@@ -54,7 +54,7 @@ class Label:
 
 @dataclass(frozen=True, slots=True)
 class PlacedLabel:
-    """Label with the position of its first cell, and whether a line connects it with its frame."""
+    """Label with the position of its first cell; `is_far` asks for a line to the frame."""
 
     label: Label
     column: int
@@ -69,7 +69,7 @@ def label_text(name: str, age: float, columns: int, least: int, *, ascii_only: b
         name: Name to show.
         age: Seconds since the frame's newest transform.
         columns: Width of the picture in cells.
-        least: Cells that a name may take in any case.
+        least: Width in cells to which a name is never shortened further.
         ascii_only: Whether to write in ASCII only.
     """
     more = "~" if ascii_only else "…"

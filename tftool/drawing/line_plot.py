@@ -415,10 +415,10 @@ def pair_plot(
     ascii_only: bool = False,
     note: str = "",
 ) -> list[Text]:
-    """Draw a pair's distance, and its yaw if there is room, at the scale of the whole path.
+    """Draw the distance between two frames over time and, if there is room, the yaw.
 
     Args:
-        path: Poses of the pair, NaN at times without a pose.
+        path: Poses of the pair, NaN at times without a pose; the whole path sets the scale.
         span: Span of time to draw.
         width: Width in cells.
         height: Height in lines.

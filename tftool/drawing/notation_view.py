@@ -106,7 +106,7 @@ def lines(
 
 
 def at_a_pole(transform: Transform) -> bool:
-    """Return whether pitch is ±90°, where only the sum of roll and yaw is determined."""
+    """Whether the pitch is ±90°, so that only the sum of roll and yaw is determined."""
     return abs(matrix_from_quaternion(transform.rotation)[2][0]) > _POLE
 
 
@@ -135,7 +135,7 @@ NOTHING = 5e-7
 
 
 def static_lines(parent: str, child: str, pose: Transform) -> str:
-    """Return a pose as static_transform_publisher prints it, and in a sentence."""
+    """Return a pose as lines: the output of static_transform_publisher, and a sentence."""
     x, y, z = pose.translation
     qx, qy, qz, qw = pose.rotation
     return (

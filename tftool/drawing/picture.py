@@ -57,7 +57,7 @@ class Box:
 
 @dataclass(frozen=True, slots=True)
 class Text:
-    """Line of text, given by its left end on the baseline; `room` limits its width."""
+    """Line of text whose left end on the baseline is (x, y); `room` is its maximum width."""
 
     x: float
     y: float
@@ -69,7 +69,7 @@ class Text:
 
 @dataclass(frozen=True, slots=True)
 class Curve:
-    """Curve of an edge between two cards, which begins and ends vertically or horizontally."""
+    """Curve of an edge, from (x0, y0) to (x1, y1), with vertical (`down`) or horizontal ends."""
 
     x0: float
     y0: float
@@ -80,7 +80,7 @@ class Curve:
 
     @property
     def bends(self) -> tuple[float, ...]:
-        """Coordinates of both control points and the end, as a cubic Bézier curve."""
+        """Coordinates of the control points and the end of the curve as a cubic Bézier curve."""
         if self.down:
             half = (self.y0 + self.y1) / 2
             return self.x0, half, self.x1, half, self.x1, self.y1
@@ -90,7 +90,7 @@ class Curve:
 
 @dataclass(frozen=True, slots=True)
 class Picture:
-    """Shapes on a sheet; x to the right and y down, in points."""
+    """Shapes on a sheet, in points, x to the right and y down; `left_out` counts omitted frames."""
 
     width: float
     height: float
@@ -179,7 +179,7 @@ def _card(kind: Kind, name: str, lines: tuple[str, ...], title: str) -> _Card:
 
 @dataclass(frozen=True, slots=True)
 class _Group:
-    """Leaves of one parent, arranged in rows and columns."""
+    """Leaves of one parent, arranged in columns of width `cell` and rows of height `row`."""
 
     parent: str
     members: tuple[str, ...]

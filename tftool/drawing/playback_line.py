@@ -271,10 +271,10 @@ def topic_lines(
 
 
 def after(marks: Sequence[PlaybackMark], now: Duration) -> Duration | None:
-    """Return the begin of the next mark after a position; None if there is no such mark."""
+    """Return the begin of the next finding after the position `now`; None without a finding."""
     return min((one.since for one in marks if one.is_timed and one.since > now), default=None)
 
 
 def before(marks: Sequence[PlaybackMark], now: Duration) -> Duration | None:
-    """Return the begin of the last mark before a position; None if there is no such mark."""
+    """Return the begin of the last finding before the position `now`; None without a finding."""
     return max((one.since for one in marks if one.is_timed and one.since < now), default=None)

@@ -302,8 +302,8 @@ def as_lines(rows: Sequence[Mapping[str, Any]], width: int | None = None) -> str
     """Return one line per recording; problems of a recording are in further lines.
 
     Args:
-        rows: Facts of each recording, or the reason why it could not be read.
-        width: Longest line in cells; None for no limit.
+        rows: Facts of each recording, or the reason why a recording could not be read.
+        width: Maximum length of a line in cells; None for no limit.
     """
     heads = ("recording", "kind", "length", "messages", "transforms", "frames", "trees")
     lines: list[tuple[str, ...]] = []

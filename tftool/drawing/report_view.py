@@ -91,7 +91,7 @@ def summary(reports: Sequence[Report], noun: str = "scenario") -> str:
 
 
 def as_rows(reports: Sequence[Report]) -> list[dict[str, Any]]:
-    """Return a mapping for each report, for --json, with exact names."""
+    """Return a mapping for each report, for --json, with unescaped names."""
     return [
         {
             "scenario": report.name,

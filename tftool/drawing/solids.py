@@ -128,7 +128,7 @@ def solids_of(
 
 
 def _rods(joints: Iterable[RobotJoint], links: Collection[str]) -> dict[str, list[Mesh]]:
-    """Return shapes for links without meshes: rods from a link's origin to its joints, and a ball.
+    """Return simple shapes for links without meshes: a ball at the origin, and rods to the joints.
 
     Args:
         joints: Joints of the robot.

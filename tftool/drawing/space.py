@@ -141,7 +141,7 @@ class OrbitCamera:
         self.look_from(names[(names.index(self.name) + 1) % len(names)])
 
     def turn(self, right: float, up: float) -> None:
-        """Orbit the scene by a number of steps to the right and of steps up."""
+        """Orbit the scene by `right` steps to the right and `up` steps up."""
         self.name, self._is_chosen = "orbit", True
         self._azimuth += TURN * right
         quarter = 0.5 * math.pi
@@ -152,7 +152,7 @@ class OrbitCamera:
         self._factor = min(NEAREST, max(MOST_DISTANT, self._factor * STEP**steps))
 
     def pan(self, columns: float, rows: float) -> None:
-        """Move the view by a number of cells to the right and of cells down."""
+        """Move the view by `columns` cells to the right and `rows` cells down."""
         right, up = self._shift
         self._shift = right + 2.0 * columns * self._scale, up - 4.0 * rows * self._scale
 

@@ -281,7 +281,7 @@ def _edges(whose: Indices, depths: Floats) -> npt.NDArray[np.bool_]:
 
 
 def _outline(found: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
-    """Return a mask of the outermost points of solids."""
+    """Return a mask of the outermost points of solids; `found` is the mask of all their points."""
     around = np.pad(found, 1)
     inner: npt.NDArray[np.bool_] = found & (
         around[:-2, 1:-1] & around[2:, 1:-1] & around[1:-1, :-2] & around[1:-1, 2:]
@@ -467,7 +467,7 @@ class SpaceCanvas:
         return lines
 
     def frame_at(self, column: int, row: int) -> str | None:
-        """Return the frame nearest to a cell of the last picture; None if none is near."""
+        """Return the frame nearest to a cell of the last picture; None if no frame is near."""
         near = [
             (max(0.5 * abs(x - column - 0.5), abs(y - row - 0.5)), name)
             for x, y, name in self._places
@@ -532,7 +532,10 @@ class SpaceCanvas:
         return dots
 
     def _letter_axes(self, drawing: DrawnSpace, sheet: CellSheet) -> npt.NDArray[np.bool_]:
-        """Write x, y and z at the ends of the axes of a few frames; return a mask of the cells."""
+        """Write x, y and z at the ends of the axes of frames; return a mask of these cells.
+
+        A picture with many frames gets no letters.
+        """
         written = np.zeros((self.rows, self.columns), bool)
         # On a coloured robot, letters would hide the robot, and the colours name the axes.
         if self.rows < LETTERED_FROM or (self._has_halves and (drawing.depth.owners >= 0).any()):

@@ -90,13 +90,13 @@ class FittedColumns:
 def fit(
     columns: Sequence[TableColumn], width: int, *, wanted: int, longest: int, more: str = "…"
 ) -> FittedColumns:
-    """Return as many columns as leave `wanted` cells for the first column.
+    """Drop columns that do not fit until the first column has `wanted` cells.
 
     Args:
         columns: Columns from left to right; a column without text is left out.
         width: Width of the table in cells.
         wanted: Cells wanted for the first column.
-        longest: Most cells that the first column can use.
+        longest: Maximum number of cells that the first column can use.
         more: Sign for text that is cut out.
     """
     kept = [one for one in columns if any(text for text, _ in one.cells)]

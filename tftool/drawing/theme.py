@@ -117,7 +117,7 @@ def age_words(age: float) -> str:
 
 
 def of_age(color: Color, age: float, palette: Palette) -> Color:
-    """Return a frame's colour: `color`, amber if the frame is stale, red after a long silence.
+    """Return `color`, or amber for a stale frame, or red for a frame that is silent for long.
 
     Args:
         color: Colour of the frame.

@@ -40,7 +40,7 @@ def lines(traffic: Traffic, chain: Chain | None = None, *, as_tf2: bool = False)
     Args:
         traffic: Statistics of the received messages.
         chain: Pair of the report; None for all frames.
-        as_tf2: Whether to compute the numbers as tf2_monitor does; see `frames.traffic`.
+        as_tf2: Whether to compute the numbers as tf2_monitor does; see `tftool.buffer.traffic`.
 
     Returns:
         Lines, each with its newline.
@@ -252,7 +252,7 @@ def has_stopped(silent: float, rate: float) -> bool:
 
 
 def present_rate(now: Stamp, series: Series) -> float | None:
-    """Return the rate of an edge or a publisher, hertz: 0 if it has stopped, None if unknown."""
+    """Return the rate of an edge or a publisher, hertz; 0 after a stop, None if unknown."""
     return 0.0 if is_silent(now, series, False) else series.rate
 
 

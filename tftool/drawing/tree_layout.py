@@ -163,7 +163,7 @@ class _Outline:
         return reach + self.right_shift - other.left_shift + gap
 
     def add(self, other: "_Outline", position: float) -> None:
-        """Add another outline at a position to the right of this one."""
+        """Add another outline at a position to the right of this outline."""
         other.shift(position)
         common = min(len(self.left), len(other.left))
         if len(other.left) > len(self.left):

@@ -47,7 +47,7 @@ def draw(snapshot: Snapshot, form: str, marks: Marks = NO_MARKS) -> Drawing:
 
 
 def dot(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
-    """Return the text of view_frames' dot file, the same byte for byte if no edge is static.
+    """Return the text of a dot file; without static edges, view_frames writes the same bytes.
 
     Static edges are dashed. All frames are in the picture. The legend is attached to every root;
     view_frames attaches it to one root only, and fails if there is a loop.

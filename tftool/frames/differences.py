@@ -385,7 +385,15 @@ def _moving_offset(
 
 
 def _common(old: SampleColumns, new: SampleColumns, shift: Duration) -> Stamps:
-    """Return the times on the clock of `old` at which both columns of samples have data."""
+    """Return the times at which two frames are compared, on the clock of `old`.
+
+    These are the common stamps, or else the stamps of `old` at which `new` has data.
+
+    Args:
+        old: Samples of the frame in the first set.
+        new: Samples of the frame in the second set.
+        shift: Nanoseconds to add to a stamp of `old` to get the stamp of that moment in `new`.
+    """
     if old.is_static or new.is_static:
         return np.unique(new.stamps - shift if old.is_static else old.stamps)
     shared: Stamps = np.intersect1d(old.stamps, new.stamps - shift)
@@ -427,7 +435,7 @@ def diff(
         align_starts: Whether times of each set always count from the start of this set.
 
     Returns:
-        All frames with their changes. The result is false in a condition if nothing changed.
+        All frames with their changes. The truth value of the result is False if nothing changed.
 
     Raises:
         InputError: If a path cannot be read, or a set has no frames.

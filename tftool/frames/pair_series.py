@@ -280,7 +280,17 @@ def _shade(run: RefusedRun, start: Stamp) -> RefusedSpan:
 def _columns(
     one: Trajectory, start: Stamp, measure: Callable[[TransformArray], Floats]
 ) -> "tuple[Floats, Floats, np.ndarray]":
-    """Return times in seconds, values, and a mask of the gaps between rows, shape (n - 1,)."""
+    """Return the points of a curve, and a mask of its gaps.
+
+    Args:
+        one: Trajectory of a pair of frames.
+        start: Stamp that is 0 on the time axis, nanoseconds.
+        measure: Function that computes the values of the curve from poses.
+
+    Returns:
+        Times in seconds, shape (n,); values, shape (n,); and whether there is a gap after each
+        point except the last, shape (n - 1,).
+    """
     times = (one.path.stamps - start) / NANOSECONDS
     apart = np.diff(times)
     usual = float(np.median(apart)) if len(apart) else 0.0

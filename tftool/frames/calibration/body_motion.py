@@ -1,4 +1,4 @@
-"""Motion of one frame: poses over time, cleaned and interpolated."""
+"""Motion of one frame: poses over time, without outliers, which can be interpolated."""
 
 from dataclasses import dataclass
 from typing import Final, TypeAlias
@@ -137,7 +137,7 @@ class BodyMotion:
     def velocities(self, times: Floats) -> tuple[Floats, Floats]:
         """Return velocities and angular velocities at some times.
 
-        They are differences of poses over at least a tenth of a second, to reduce the noise.
+        Velocities are differences of poses over at least a tenth of a second, to reduce the noise.
 
         Args:
             times: Times on the motion's time axis, seconds, shape (m,).

@@ -174,7 +174,7 @@ def calibrate(
         progress: Function called with the number of finished steps and the total number of steps.
 
     Returns:
-        The calibration, which is false in a condition if the mount cannot be determined.
+        The calibration, whose truth value is False if the mount cannot be determined.
 
     Raises:
         InputError: If the frames of an input are not a single chain.
@@ -302,7 +302,7 @@ class _Solver:
         return np.array(self.published.rotation)
 
     def _along(self, shift: Floats, axis: Floats) -> Floats:
-        """Replace the component of a translation along `axis` by that of the published mount."""
+        """Replace a translation's component along `axis` by the published mount's, or by 0."""
         kept = 0.0 if self.published is None else np.array(self.published.translation) @ axis
         return np.asarray(shift - (shift @ axis) * axis + kept * axis)
 
@@ -467,7 +467,8 @@ def _segments(problem: Problem, length: float) -> "np.ndarray":
 def _one_axis(axis: Floats, turn: Floats, is_planar: bool) -> _Shown:
     """Return the parts of the mount that a motion about one axis determines.
 
-    A translation along the axis is undetermined; if the motion is planar, so are roll and pitch.
+    A translation along the axis is undetermined. A planar motion also leaves roll and pitch
+    undetermined.
     """
     free = np.zeros((5, 9))
     free[:3, :3] = np.eye(3)
@@ -515,8 +516,8 @@ def _interval(sizes: Floats, shown: _Shown) -> Interval:
 def _fixed_interval(sizes: Floats, shown: _Shown, problem: Problem, fit: Fit) -> Interval:
     """Return the interval of the fixed mount: the pose of one fixed frame in the other.
 
-    Undetermined parts of the mount are undetermined in the fixed mount too. If there is only one
-    axis of rotation, it has a constant direction in both fixed frames.
+    Undetermined parts of the mount are undetermined in the fixed mount too. A single axis of
+    rotation has a constant direction in both fixed frames.
     """
     turns, moves = np.degrees(sizes[:3]), sizes[3:]
     if shown.axis is None:

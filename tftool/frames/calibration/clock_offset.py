@@ -89,7 +89,7 @@ def clock_offset(a: TransformArray | Frames, b: TransformArray | Frames) -> Cloc
 
 
 def path_of(frames: TransformArray | Frames) -> TransformArray:
-    """Return poses unchanged; for opened frames, return the poses of the last frame in the root.
+    """Return the given poses, or for opened frames the poses of the chain's last frame in its root.
 
     Raises:
         InputError: If the frames are not a single chain.
@@ -156,7 +156,7 @@ class _Correlation:
         return float(self.curve[self.peak]) if np.isfinite(self.curve).any() else -1.0
 
     def second_peak(self) -> float:
-        """Return the height of the second highest peak, apart from the flanks of the highest."""
+        """Return the height of the highest peak outside the flanks of the highest peak of all."""
         curve, peak = np.nan_to_num(self.curve, nan=-1.0), self.peak
         low, high = peak, peak
         while low > 0 and curve[low - 1] <= curve[low]:
@@ -169,7 +169,7 @@ class _Correlation:
     def refined(self) -> tuple[float, float]:
         """Return the position of the peak and the half-width of its 95 % interval, in steps.
 
-        The position is the top of a parabola through five values. The half-width comes from a
+        The position is the top of a parabola fitted to nine values. The half-width comes from a
         bootstrap over blocks of time.
         """
         lag = int(self.lags[self.peak])

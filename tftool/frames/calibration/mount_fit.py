@@ -189,7 +189,7 @@ class _Residuals:
         self.jacobian[:, 3:] -= lever @ self.jacobian[:, :3]
 
     def _with_joins(self, problem: Problem, fit: Fit, turns: Floats, places: Floats) -> Fit:
-        """Return the fit; if the number of time segments changed, estimate the poses Y anew."""
+        """Return the fit, with new poses Y if the number of time segments changed."""
         if len(fit.joins) == self.count:
             return fit
         back = batch.conjugate(problem.rotations)
