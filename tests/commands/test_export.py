@@ -493,7 +493,7 @@ def test_where_there_is_nothing_nothing_is_written(tmp_path):
         library.export(Buffer(), path=tmp_path / "a.mcap")
     moving = Buffer()
     moving.set_transform(TransformStamped(START, "odom", "base", Transform()))
-    with pytest.raises(library.UsageError, match="--with-moving adds those that move"):
+    with pytest.raises(library.UsageError, match="--with-moving adds moving frames"):
         library.export(moving, path=tmp_path / "a.urdf")
     assert list(tmp_path.iterdir()) == []
 

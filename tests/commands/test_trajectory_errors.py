@@ -94,7 +94,7 @@ def test_nearest_leaves_out_what_interpolation_answers(tftool, truth, tmp_path):
     found = measured(tftool, truth, late, "--ape", "--match", "interpolate")
 
     assert refused.status == 3
-    assert "0 of 49 poses of B have a pose of A at its time" in refused.err
+    assert "Only 0 of 49 poses of B can be matched with a pose of A in time" in refused.err
     assert found["matched"] == 49
     # The middle of a chord of 7.2° is r (1 - cos 3.6°) from its arc. Seen from the start of the
     # arc, it is half a chord away.

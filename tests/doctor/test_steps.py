@@ -57,7 +57,7 @@ def test_a_pair_names_the_edges_and_frames_that_there_are_not_are_refused():
         steps_of(model, "map", "cup")
     split = robot()
     split.moving("table", "plate", pose=drives)
-    with pytest.raises(LookupException, match="Nothing joins"):
+    with pytest.raises(LookupException, match="No transforms connect"):
         steps_of(Model(split.evidence()), "odom", "plate")
 
 

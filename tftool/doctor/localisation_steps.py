@@ -85,7 +85,7 @@ def _chain(model: Model, target: str, source: str) -> list[Track]:
             raise LookupException(f"No transform names '{name}'.", frame=name)
     path = model.path(source, target)
     if path is None:
-        raise LookupException(f"Nothing joins '{source}' and '{target}'.")
+        raise LookupException(f"No transforms connect '{source}' and '{target}'.")
     return [track for track in path if not track.static]
 
 

@@ -133,7 +133,7 @@ def plot(
         return ax
     drawn = panels(found, begin, chosen(words or ["position"]))
     if len(drawn) > 1:
-        raise UsageError(f"One axes can show one panel, not {len(drawn)}: choose one with what=….")
+        raise UsageError(f"`ax` shows one panel, not {len(drawn)}: choose a panel with what=….")
     _draw_panel(ax, drawn[0], shades(found, begin), dark)
     ax.set_xlabel("time, s")
     return ax

@@ -131,9 +131,9 @@ def only_chain(buffer: Buffer) -> tuple[str, str]:
     leaves = sorted(set(frames) - set(parents.values()))
     if len(roots) != 1 or len(leaves) != 1 or len(frames) < 2:
         raise InputError(
-            f"Name the pair of frames: there are {len(leaves)} chains of frames, to "
-            f"{', '.join(leaves[:5])}{' …' if len(leaves) > 5 else ''}: --pair TARGET:SOURCE "
-            "names one."
+            f"The frames form {len(leaves)} chains, with the last frames "
+            f"{', '.join(leaves[:5])}{' …' if len(leaves) > 5 else ''}: name a pair of frames with "
+            "--pair TARGET:SOURCE."
         )
     return roots[0], leaves[0]
 
@@ -222,8 +222,8 @@ def evenly(start: Stamp, end: Stamp, period: Duration) -> Stamps:
         raise UsageError(
             f"Every {as_seconds(period):g} s over {as_seconds(end - start):,.0f} s would be "
             f"{count:,} times, but at most {MOST_MOMENTS:,} are possible: use a lower rate. If "
-            "the recording is shorter, a stamp is wrong: 'tftool info' shows the first and "
-            "last one."
+            "the recording is shorter, a stamp is wrong: 'tftool info' shows the first and the "
+            "last stamp."
         )
     return max(start, 1) + period * np.arange(count, dtype=np.int64)
 

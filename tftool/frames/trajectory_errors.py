@@ -153,9 +153,9 @@ def trajectory_errors(
         a, b = _nearest(a, b)
     if len(a) < 2:
         raise InputError(
-            f"{len(a)} of {counts[1]} poses of B {'have' if len(a) != 1 else 'has'} a pose of A "
-            "at its time: check that A and B use the same clock. 'tftool diff A B "
-            "--clock-offset' measures the offset."
+            f"Only {len(a)} of {counts[1]} poses of B can be matched with a pose of A in time: "
+            "check that A and B use the same clock. 'tftool diff A B --clock-offset' measures "
+            "the offset."
         )
     b, scale = fitted(a, b, fit)
     columns: list[ErrorColumn] = []

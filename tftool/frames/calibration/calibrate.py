@@ -447,8 +447,8 @@ def _problem(a: BodyMotion, b: BodyMotion, clock: ClockOffset) -> Problem:
     kept = np.flatnonzero(valid)
     if len(kept) < 20 or times[kept[-1]] - times[kept[0]] < LEAST_OVERLAP:
         raise CalibrationRefused(
-            f"{a.name} and {b.name} share {len(kept)} poses on one clock: record both for half a "
-            "minute at the same time.",
+            f"{a.name} and {b.name} overlap in time by {len(kept)} poses, which is too little: "
+            "record both motions for half a minute at the same time.",
         )
     kept = kept[:: -(-len(kept) // _MOST_POSES)]
     middle = 0.5 * float(times[kept[0]] + times[kept[-1]])

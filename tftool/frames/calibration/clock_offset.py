@@ -114,7 +114,7 @@ def offset_of(a: BodyMotion, b: BodyMotion) -> ClockOffset:
         raise CalibrationRefused(
             f"The rotations of {a.name} and {b.name} do not agree at any clock offset (best "
             f"correlation {max(found.height, 0.0):.2f}, {LEAST_CORRELATION:g} is needed): either "
-            "they are not on one rigid body, or they hardly turn.",
+            "the two frames are not on one rigid body, or the body hardly turns.",
             "turn by at least 30° about two axes, at changing speed, for half a minute",
         )
     second = found.second_peak()

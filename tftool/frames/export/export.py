@@ -71,7 +71,7 @@ def _named_path(function: "Callable[P, Exported]") -> "Callable[P, Exported]":
     def checked(*given: P.args, **named: P.kwargs) -> Exported:
         if "path" not in named or len(given) > 3 or {"target_frame", "source_frame"} & named.keys():
             raise TypeError(
-                "export takes frames, target, source, and the path by its name: "
+                "export takes frames, target and source, and the path as a keyword argument: "
                 "export(recording, 'map', 'base_link', path='run.tum')"
             )
         return function(*given, **named)
@@ -164,7 +164,9 @@ def _written(
     buffer = buffer_of(frames)
     if not form.is_trajectory:
         if asked:
-            raise UsageError(f"{form} files contain links, not a pair: leave out the frames.")
+            raise UsageError(
+                f"{form} files contain all frames, not a pair: leave out the target and the source."
+            )
         return write_links(buffer, place, form, style, force=force, progress=progress)
     if not asked:
         raise UsageError(
@@ -240,8 +242,10 @@ def write_links(
     )
     if not links:
         below = "" if style.root is None else f" below '{style.root}'"
-        moving = " --with-moving adds those that move." if form is Format.urdf else ""
-        raise UsageError(f"No link{below} is static, and only static links can be written.{moving}")
+        moving = " --with-moving adds moving frames." if form is Format.urdf else ""
+        raise UsageError(
+            f"No frame{below} is static, and {form} contains static frames only.{moving}"
+        )
     name = path.name.partition(".")[0] or "robot"
     text = LINK_WRITERS[form](links, name)
     with whole_file(path, force=force) as file:
