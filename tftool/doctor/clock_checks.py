@@ -417,9 +417,11 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _is_shared(model: Model, aheads: Sequence[Duration]) -> bool:
-    """Whether the streams of several topics are all ahead by nearly the same time.
+    """Whether all streams, on several topics, are ahead of reception by nearly the same time.
 
-    The times in `aheads` are those of the reported streams, nanoseconds.
+    Args:
+        model: Model of the evidence.
+        aheads: Times by which the reported streams are ahead, nanoseconds.
     """
     streams: list[Track | Heard] = [*model.dynamic, *(h for h in model.heard if h.is_spatial)]
     late = [one.median_latency for one in streams if len(one.stamps) > 2]
@@ -446,10 +448,9 @@ def _is_unshifted(model: Model, heard: Heard) -> bool:
 
 
 def _on_both_clocks(model: Model, streams: Sequence[Track | Heard]) -> str:
-    """Return a sentence for each edge whose samples come from two clocks.
+    """Return a sentence for each edge whose samples come from two clocks; "" without such edges.
 
-    Such an edge has two publishers: one uses the wrong clock, and one uses the clock of the other
-    streams. The result is empty without such an edge.
+    One publisher of the edge uses the wrong clock, another the clock of the other streams.
     """
     told = ""
     for track in streams:

@@ -244,7 +244,7 @@ def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Wa
         return None
     low, high = model.start, model.end
     if warm:
-        # All that waited for the first subscription may arrive in one burst.
+        # Messages queued before the first subscription may arrive in one burst.
         low = max(int(one.logs[0]) for one in (heard, *links)) + WARM_UP
         high -= WARM_UP
     begin = max(int(track.sorted_stamps[0]) for track in links)

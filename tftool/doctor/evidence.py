@@ -59,8 +59,8 @@ class Evidence:
             read.
         mistakes: Mistakes in the description, as sentences.
         odometry: Odometry messages as transforms; None without odometry.
-        negative: Number of messages with negative variances, number of all messages, and least
-            variance, by topic; only Odometry topics with negative variances.
+        negative: For each Odometry topic with negative variances: number of messages with negative
+            variances, number of all messages, and least variance.
         mounts: Sensors' mounts (static poses) measured from motion; None if not requested.
     """
 
@@ -454,7 +454,7 @@ def evidence_of(
 
 
 def _beside(evidence: Evidence, described: Described | None) -> Evidence:
-    """Return the evidence with its robot replaced by the given description, if there is one."""
+    """Replace the robot in the evidence by the robot of a description; None changes nothing."""
     if described is None:
         return evidence
     return replace(evidence, robot=described.robot, mistakes=described.mistakes)

@@ -98,7 +98,7 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
             is_part = model.is_minor(track) or (
                 len(model.below(track.child)) == 1 and last_part(track.child) not in BASES
             )
-            # A joint that moved and has been silent for long is no part that rests.
+            # A joint that moved and has been silent for long has stopped.
             is_lost = model.is_minor(track) and track.moves and before > _SILENT
             severity = Severity.NOTE if is_part and not is_lost else Severity.WARNING
         yield hit_of(

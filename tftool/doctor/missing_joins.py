@@ -210,7 +210,7 @@ def ends_at_the_root(model: Model, moving: Sequence[Track], statics: Sequence[Tr
     """
     if {track.parent for track in moving} & {track.parent for track in statics}:
         return None
-    # The newest parent of the frame may be either; the root of the mount is above that.
+    # The newest parent may be the moving one. The mounts' root is above the static parent.
     parent = statics[-1].parent
     above = [track.parent for track in model.above(parent)]
     root = above[-1] if above else parent

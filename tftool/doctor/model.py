@@ -110,7 +110,7 @@ class Tree:
 
 
 class Model:
-    """Model of the evidence: the values that the checks derive from the evidence in common.
+    """Model of the evidence: values derived from the evidence that several checks need.
 
     Attributes:
         evidence: The evidence.
@@ -182,7 +182,7 @@ class Model:
 
     @cached_property
     def words(self) -> Mapping[str, str]:
-        """Commands and settings of the recording's ROS version, by placeholder in the texts."""
+        """Mapping from placeholders to commands and settings of the recording's ROS version."""
         return ros_words(self.evidence)
 
     @cached_property
@@ -224,7 +224,7 @@ class Model:
 
     @cached_property
     def edges_above(self) -> dict[str, list[Track]]:
-        """Edges that end at each child frame, by the child's name, in the order of `tracks`."""
+        """Mapping from each child's name to the edges of the child, in the order of `tracks`."""
         edges: dict[str, list[Track]] = {}
         for track in self.tracks:
             edges.setdefault(track.child, []).append(track)
@@ -232,7 +232,7 @@ class Model:
 
     @cached_property
     def parents(self) -> dict[str, Track]:
-        """Edge from the newest parent to each child frame, by the child's name."""
+        """Mapping from each child's name to the edge from the child's newest parent."""
         latest: dict[str, tuple[int, Track]] = {}
         for track in self.tracks:
             if not len(track.stamps):
@@ -258,7 +258,7 @@ class Model:
 
     @cached_property
     def joint_above(self) -> Mapping[str, RobotJoint]:
-        """Joint whose child link is the frame, by the frame's name; empty without a description."""
+        """Mapping from each link's frame to the joint above the link; empty without a robot."""
         robot = self.evidence.robot
         joints = () if robot is None else robot.joints.values()
         return {self.prefix + joint.child: joint for joint in joints}
@@ -299,7 +299,7 @@ class Model:
 
     @cached_property
     def tree_of(self) -> dict[str, Tree]:
-        """Tree that contains the frame, by the frame's name."""
+        """Mapping from each frame's name to the tree of the frame."""
         return {frame: tree for tree in self.trees for frame in tree.frames}
 
     def above(self, frame: str) -> list[Track]:
@@ -307,7 +307,7 @@ class Model:
         return climbed(frame, self.parents.get)
 
     def path(self, frame: str, other: str) -> list[Track] | None:
-        """Return the edges between two frames; None if they are not connected."""
+        """Return the edges between two frames; None if the frames are not connected."""
         if frame not in self.frames or other not in self.frames:
             return None
         legs = up_to_join(frame, other, self.above)
@@ -494,7 +494,7 @@ class Model:
             return
         at_once = [s for one, s in zip(late, kept, strict=True) if abs(one - by) < _ONE_CLOCK]
         if all(_copies(at_once[0], other) for other in at_once[1:]):
-            # One late stream and its copies tell no clock: the freshest stream does.
+            # A late stream and its copies do not show the clock, so use the freshest stream.
             by = min(one for one in late if abs(one - by) < near)
         by = min([one for one in moving if LAP <= by - one < near], default=by)
         self.shift = Shift(by, spread, len(alike), len(late))
@@ -513,7 +513,7 @@ class Model:
         streams = [
             one for one in self._streams() if not (isinstance(one, Track) and one.is_localisation)
         ]
-        # ROS 1 dates constants ahead: they tell the clock only if nothing else does.
+        # ROS 1 stamps constant transforms ahead, so use them only without other streams.
         moving = [one for one in streams if not isinstance(one, Track) or one.moves]
         for stream in moving or streams:
             mask = (stream.stamps < SIMULATED_BELOW) & (stream.stamps != 0)
@@ -530,7 +530,7 @@ class Model:
             kept.append((stamps[near], logs[near]))
         if steady or not any(len(stamps) for stamps, _ in kept):
             return np.array([0], np.int64), np.array([offset], np.int64)
-        # The clock's rate differs from the wall clock's: its time is at least the newest stamp.
+        # The rates of the clocks differ. The simulated time is at least the newest stamp.
         stamps, logs = (np.concatenate(columns) for columns in zip(*kept, strict=True))
         order = np.argsort(logs, kind="stable")
         return np.maximum.accumulate(stamps[order]), logs[order]

@@ -92,7 +92,7 @@ def case_twins(model: Model, limits: Limits) -> Iterator[Hit]:
     because_of=(("frame", "namespace-twins"),),
 )
 def typo_twins(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Two names differ by one or two letters, and one of them is unused or separate."""
+    """Two names differ by one or two letters, and one name is not in tf or in another tree."""
     names = _names(model)
     lesser = {tree.root for tree in model.trees[1:]}
     dangling = [name for name in names if name not in model.frames or name in lesser]

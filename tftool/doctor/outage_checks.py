@@ -85,8 +85,8 @@ def outage(model: Model, limits: Limits) -> Iterator[Hit]:
 def _receiver_stalls(model: Model, limits: Limits) -> Hit | None:
     """Return a hit if the recorder itself stalled again and again; else None.
 
-    During such a stall nothing arrives. Afterwards several messages of `/clock` arrive at once,
-    whose times show that the simulation continued.
+    During a stall, nothing arrives. Afterwards several messages of `/clock` arrive at once, and the
+    times in these messages show that the simulation continued.
     """
     times, clock = model.evidence.clock
     streams: list[Track | Heard] = [*model.dynamic, *model.heard]

@@ -157,7 +157,7 @@ def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
         if hit is None:
             continue
         hit = replace(hit, severity=severity_of(model, track, hit, limits))
-        # What shares messages shares the nodes that send them.
+        # Edges in the same messages have the same publishing nodes.
         like = (t for t in apart if np.isin(track.messages, t.messages).mean() > 0.5)
         sent_with = next(like, track)
         if sent_with is track:

@@ -101,7 +101,7 @@ def frozen_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def stands_still(stream: Track | Heard) -> bool:
-    """Whether the check `frozen-stamp` reports a stream, because its stamp does not change.
+    """Whether the stamp of a stream does not change, which the check `frozen-stamp` reports.
 
     Advice about clocks and caches would be wrong for such a stream.
     """
@@ -356,7 +356,7 @@ def out_of_order(model: Model, limits: Limits) -> Iterator[Hit]:
     for track in model.dynamic:
         count = unsorted_share(track.stamps)
         if count > limits["samples"] and count > limits["share"] * len(track.stamps):
-            # A localiser sends late what it could place late.
+            # A localiser sends a pose late if it computes the pose late.
             waited = (track.child,) if track.is_localisation else ()
             facts = {"count": count, "of": len(track.stamps)}
             yield hit_of(track, facts, since=None, count=count, frames=waited)
@@ -530,7 +530,7 @@ def _late(model: Model, stream: "Track | Heard") -> Hit:
     varies = f", from {span(low)} to {span(high)} for 80 %" if high - low > _STEADY else ""
     shown = _relayed_late(model, stream)
     for other in model.heard if isinstance(stream, Track) else ():
-        # Nobody dates a transform by a message that has not come.
+        # No node can copy the stamp of a message that has not arrived.
         soon = 4 * abs(other.median_latency) < stream.median_latency
         if soon and not shown and np.isin(stream.stamps, other.stamps).mean() > 0.5:
             shown = (

@@ -472,9 +472,9 @@ _FAMILY = re.compile(
 
 
 def family(name: str) -> str:
-    """Replace numbers and words such as left and front in a frame name by "#".
+    """Replace numbers, and words such as left and front, by "#" in a frame name.
 
-    So frames of the same kind, such as the four wheels of a robot, get the same result.
+    Frames of one kind, such as the four wheels of a robot, get the same result.
     """
     return _FAMILY.sub("#", name.lower())
 

@@ -328,7 +328,7 @@ class Canvas:
         if bodies:
             return sprites.body(*place, one.theta, color, per_metre)
         if (row, column) in taken:
-            # Another turtle is in this cell: this one is drawn small, beside it.
+            # Another turtle is in this cell, so draw a small arrow beside that turtle.
             free = next(
                 (
                     column + aside

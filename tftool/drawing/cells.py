@@ -181,7 +181,7 @@ class Dots:
         self.colors[cells] = colors
 
     def cover(self, above: "Dots") -> None:
-        """Replace the dots and colour of each cell that has dots in `above` by those of `above`."""
+        """Draw the cells of `above` that have dots over these cells, which are replaced."""
         marked = above.masks > 0
         self.masks[marked], self.colors[marked] = above.masks[marked], above.colors[marked]
 

@@ -277,7 +277,7 @@ def errors_as_object(found: TrajectoryErrors, names: tuple[str, str]) -> dict[st
 
 
 def panels(found: TrajectoryErrors) -> list[PlotPanel]:
-    """Return a plot panel for each kind of error, over the seconds since the first matched pose."""
+    """Return plot panels of the errors over time, in seconds since the first matched pose."""
     start = min(int(one.stamps[0]) for one in found.columns)
     return [
         PlotPanel(one.name.upper(), one.unit.replace("deg", "°"), (_curve(one, start),))

@@ -95,7 +95,7 @@ def _headline(found: Explanation) -> Text:
     line.append("refused", "bold red").append(_later(found))
     if found.failed is not None:
         return line
-    # A live listener has only what arrived by then; `echo` searches the whole recording.
+    # A live listener has only the samples received so far; `echo` has the whole recording.
     line.append("; asked as a robot would have at that moment")
     return line.append(", and echo, which knows all of it, answers" if found.in_whole else "")
 

@@ -265,7 +265,7 @@ def _folded(diagnosis: Diagnosis) -> dict[str, list[str]]:
 
 
 def compared(rows: Sequence[tuple[str, Diagnosis | str]]) -> Table:
-    """Return a table with a row per source: its findings, or the reason why it is unreadable."""
+    """Return a table with a row per source: the findings, or the reason why nothing was read."""
     table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
     table.add_column("source", overflow="fold")
     for severity in Severity:

@@ -177,7 +177,7 @@ def _yaml_entry(info: FrameInfo) -> str:
 
 
 def _plain(value: object) -> str:
-    """Return a value as YAML text if it needs no quotes; else ""."""
+    """Return the YAML text of a value that needs no quotes; "" for other values."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, float):
@@ -356,7 +356,8 @@ def compact(
         moving: Frames of a robot description that a joint moves; None for other frames.
         marks: Ids of the doctor's findings about each frame.
         order: Order of the rows; tree lines are drawn only in the tree's own order.
-        wanted: Part of the names of frames to show; a tree shows their ancestors too.
+        wanted: Text that the names of shown frames contain; in tree order, the ancestors of these
+            frames are shown too.
         most: Maximum number of rows; None for all rows.
         history: Earlier rates and delays of each frame, drawn as small curves.
     """

@@ -128,7 +128,7 @@ class PlanePicture:
     Attributes:
         fixed: Name of the fixed frame; empty if there are no frames.
         frames: All frames of the fixed frame's tree, in order of registration.
-        field: Field on which the turtles draw; None if it cannot be placed.
+        field: Field on which the turtles draw; None without a field, or without its pose.
         pen: Lines of the turtles' pens, in metres of the field.
         trails: Paths of moving frames, in metres of the fixed frame, oldest first.
         pair: Target and source of the shown pair, which a line connects.

@@ -32,10 +32,10 @@ KEYS = (
 _ASCII = {"→": "right", "↑↓": "up/down"}
 
 NEAR = seconds(0.5)
-"""Nanoseconds from a finding within which the finding is lit."""
+"""Distance from the position, nanoseconds, within which a finding is highlighted."""
 
 JUST_NOW = seconds(0.2)
-"""Real nanoseconds for which a topic is lit after a message."""
+"""Real time, nanoseconds, for which a topic is highlighted after a message."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -100,7 +100,7 @@ def _location(source: str, finding: Finding | None = None) -> dict[str, Any]:
             if path.is_absolute()
             else quote(path.as_posix(), errors="surrogateescape")
         )
-    # Code hosts show a result at a line; a recording has no lines, so it is the first.
+    # Code hosts show a result at a line. A recording has no lines, so use the first line.
     place = {"artifactLocation": {"uri": address}, "region": {"startLine": 1}}
     location: dict[str, Any] = {"physicalLocation": place}
     if finding is not None:

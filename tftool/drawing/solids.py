@@ -29,7 +29,7 @@ MOST_TRIANGLES: Final = 12_000
 """Approximate number of triangles drawn of a robot; a terminal shows no finer detail."""
 
 PLAIN: Final[Rgb] = (0.78, 0.80, 0.84)
-"""Colour of shapes that have none."""
+"""Colour of shapes without a colour in the description."""
 
 ROD_TO_LENGTH: Final = 0.06
 ROD_TO_LONGEST: Final = 0.03

@@ -191,7 +191,7 @@ def drawn(
         tinted: Whether the solid under the cursor takes the colour of the cursor.
         plain: Whether to draw for a terminal of few colours. The ground is then a dot at each
             crossing of its grid. On a robot, only the frame under the cursor has axes and a line
-            to its parent; this also applies to a small picture of a robot with many frames.
+            to the parent frame. A small picture of a robot with many frames is drawn likewise.
     """
     width, height = 2 * columns, 4 * rows
     poses = {one.name: one.pose for one in picture.frames}
@@ -582,7 +582,7 @@ class SpaceCanvas:
         costs = ON_AXIS * marked + SOLID * near
         total = sum(count for _, _, count, _, _ in drawing.names)
         hint = f"grid {drawing.grid:g} m"
-        # The longest hint that the picture may need keeps its place free.
+        # Keep room for the longest hint that the picture may need.
         costs[-1, : len(hint) + 24] = TAKEN
         palette = self._palette
         found = self._placer.placed(labels, costs)
@@ -591,7 +591,7 @@ class SpaceCanvas:
             one, _ = named[placed.label.name]
             color = theme.readable(theme.of_name(one.name), palette)
             inks.append(packed(theme.of_age(color, one.age, palette)))
-        # In the colour of its name, up to a solid or the axes, which the line does not hide.
+        # The line has the colour of the name, and does not hide solids or axes.
         leaders = Dots(self.columns, self.rows)
         far = np.array([placed.is_far for placed in found], bool)
         ends = np.array([_leader(placed) for placed in found], float).reshape(-1, 2, 2)
@@ -630,7 +630,7 @@ def _leader(placed: PlacedLabel) -> tuple[tuple[int, int], tuple[int, int]]:
 
 
 def _few_shades(colors: npt.NDArray[np.floating]) -> Indices:
-    """Pack each colour in one number; colours are rounded to few shades, to cache their styles."""
+    """Pack each colour in one number, rounded to few shades so that styles can be cached."""
     red, green, blue = np.moveaxis(np.clip(colors, 0, 255).astype(np.int64) & 0xF8, -1, 0)
     shades: Indices = (red << 16) + (green << 8) + blue
     return shades

@@ -119,7 +119,7 @@ class TrafficHistory:
                     (_scaled([one[part] for one in looks], cells, factor, ascii_only), style)
                     for looks in kept
                 ],
-                # The heading stands above the newest value.
+                # The heading is at the right, above the newest value.
                 stands_right=True,
             )
             for heading, part, factor, style in (

@@ -17,8 +17,8 @@ WALL = Color(255, 92, 87)
 INK = Color(16, 20, 48)
 WHITE = Color(255, 255, 255)
 
-# Apart from each other and readable on turtlesim's blue, also after a terminal
-# has rounded them to the nearest of its 256.
+# These colours stay distinct and readable on turtlesim's blue, even if a terminal
+# rounds them to its 256 colours.
 _PALETTE = (
     Color(135, 255, 135),
     Color(255, 215, 95),
@@ -141,7 +141,7 @@ def prefers_light(environment: Mapping[str, str] = MappingProxyType({})) -> bool
 
 
 class PaperColors(NamedTuple):
-    """Colours on one background: the background, its grid, lines to parents, axes."""
+    """Colours for one background: of the background, of the grid, of lines to parents, of axes."""
 
     ground: Color
     grid: Color

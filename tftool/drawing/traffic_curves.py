@@ -263,7 +263,7 @@ def _words(link: FrameTraffic, layout: TrafficLayout, *, is_late: bool = False) 
 
 
 def _numbers(now: Stamp, link: FrameTraffic, tall: int, digits: int) -> tuple[list[str], list[str]]:
-    """Return the numbers at the left of the rate curve, and those at the left of the delay curve.
+    """Return the texts at the left of the rate curve, and the texts at the left of the delay curve.
 
     Args:
         now: Current time of the clock in nanoseconds.

@@ -94,8 +94,8 @@ def table(
 ) -> Text:
     """Return a table of frames (of the chain, if one is given) and a table of publishers.
 
-    An edge is amber if its transforms are stamped long before they arrive, or if it has been silent
-    for many periods. After a longer silence it is red. The limits are the doctor's.
+    An edge is amber if its transforms arrive long after their stamps, or after a silence of many
+    periods. An edge is red after a longer silence. The limits are those of the doctor.
 
     Args:
         now: Current time of the clock in nanoseconds.

@@ -47,7 +47,7 @@ class Frames:
         found: "Found | None" = None,
         notes: tuple[str, ...] = (),
     ) -> None:
-        """Create the object; for a recording, its buffer, span, robot and notes are used.
+        """Create the object; for a recording, leave out `buffer`, `span`, `robot` and `notes`.
 
         Args:
             kind: Kind of the source.

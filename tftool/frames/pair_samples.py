@@ -113,7 +113,7 @@ def sample(buffer: Buffer, target: str, source: str, moments: Moments | None = N
     if not len(asked):
         raise UsageError(f"No moment is in the requested time span: {words}. Choose a longer span.")
     if not path.valid.any():
-        # Raises the error for the first time.
+        # Raises the error of the first failed lookup.
         buffer.lookup_transform(target, source, int(asked[0]))
     path = replace(path, rotations=continuous(path.rotations, path.valid))
     return Trajectory(path, _refusals(buffer, path), words)
@@ -166,7 +166,7 @@ def links_between(buffer: Buffer, target: str, source: str) -> list[str]:
 
 
 def fastest(buffer: Buffer, links: list[str]) -> tuple[str, Stamps] | None:
-    """Return the frame with the shortest sample period, and its stamps; None if all are static."""
+    """Return the frame with the shortest sample period, and its stamps; None for static frames."""
     found: tuple[float, int, str, Stamps] | None = None
     for frame in links:
         held = buffer.samples(frame)
@@ -240,7 +240,7 @@ def _asked(buffer: Buffer, target: str, source: str, moments: Moments) -> tuple[
         return evenly(start, end, moments.period), f"every {as_seconds(moments.period):g} s"
     found = fastest(buffer, links)
     if found is None:
-        # Any time is right. Use the first stamp, because 0 would mean the latest.
+        # All edges are static, so use any time other than 0, which would mean the latest.
         alone = max(1, moments.start or moving_span(buffer, buffer.frames())[0])
         return np.array([alone], dtype=np.int64), "at one moment, as nothing moves between the two"
     return _within(found[1], moments), f"at the stamps of '{found[0]}'"

@@ -195,7 +195,7 @@ def _steady(positions: Floats, turns: Floats) -> "npt.NDArray[np.intp]":
         good = np.ones(len(kept), dtype=np.bool_)
         for each, least in ((away, 0.005), (angles, np.radians(0.5))):
             middle = np.median(each, axis=1)
-            # Not the median, which may be bad too if many poses are bad.
+            # Not the median, which may be wrong too if many poses are outliers.
             usual = np.quantile(middle[np.clip(here + _USUAL, 0, last)], 0.35, axis=1)
             good &= middle <= np.maximum(factor * usual, least)
         kept = kept[good]

@@ -3,8 +3,8 @@
 A and B are two motions: poses over time of two frames on one rigid body, each in its own fixed
 frame. X is the mount: the pose of B's moving frame in A's moving frame. Y is the pose of B's fixed
 frame in A's fixed frame, and d is the clock offset. If one motion drifts, as odometry does, time is
-divided into segments, each with its own Y. The Ys are eliminated (Schur complement), so that each
-iteration solves one small linear system.
+divided into segments, and each segment has a pose Y of its own. The poses Y are eliminated (Schur
+complement), so that each iteration solves one small linear system.
 """
 
 from collections.abc import Sequence
@@ -430,10 +430,10 @@ def lever(pairs: MotionPairs, turn: Floats, weights: Floats) -> tuple[Floats, fl
 
 
 def about_one_axis(pairs: MotionPairs, axis: Floats, start: Floats) -> tuple[Floats, Floats, float]:
-    """Compute the mount from motions about one axis, except for its translation along the axis.
+    """Compute the mount from motions about one axis, without the translation along the axis.
 
     The rotation vectors do not determine the mount's rotation about the axis. The translations
-    determine this angle, because they depend linearly on its cosine and sine.
+    determine this angle, because they depend linearly on the cosine and sine of the angle.
 
     Args:
         pairs: Motions that turn about one axis.
