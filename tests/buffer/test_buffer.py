@@ -106,15 +106,21 @@ def test_a_cleared_link_is_told_as_empty(buffer):
 def test_an_unknown_frame_is_told_with_those_that_look_like_it(buffer):
     with pytest.raises(LookupException) as refused:
         buffer.lookup_transform("turtel1", "world")
-    assert refused.value.remedy == "No transform of 'turtel1' has come yet, nor of any other frame."
+    assert (
+        refused.value.remedy == "No transform of 'turtel1' has arrived yet, nor of any other frame."
+    )
     put(buffer, 1)
     with pytest.raises(LookupException) as refused:
         buffer.lookup_transform("turtel1", "world")
-    assert refused.value.remedy == "No transform of 'turtel1' has come yet; did you mean 'turtle1'?"
+    assert (
+        refused.value.remedy == "No transform of 'turtel1' has arrived yet; did you mean 'turtle1'?"
+    )
     assert refused.value.frame == "turtel1"
     with pytest.raises(LookupException) as refused:
         buffer.lookup_transform("map", "world")
-    assert refused.value.remedy == "No transform of 'map' has come yet; 2 other frames are known."
+    assert (
+        refused.value.remedy == "No transform of 'map' has arrived yet; 2 other frames are known."
+    )
 
 
 def test_a_slash_is_told_how_to_go_without(buffer):

@@ -184,7 +184,7 @@ def test_a_wrong_frame_name_is_named_once_with_the_near_one(tftool, slip):
 
     result = tftool("run", "--simulated", "--for", "8", file)
 
-    assert said(result, "'turtel1' has come yet; did you mean 'turtle1'?") == 1
+    assert said(result, "'turtel1' has arrived yet; did you mean 'turtle1'?") == 1
 
 
 def test_a_frame_that_comes_up_late_is_no_wrong_name(tftool, slip):

@@ -147,7 +147,7 @@ def test_what_is_true_holds(expectation):
             "{at: 3 s, rate: posst, above: 1 Hz}",
             "at 3 s: rate of posst above 1 Hz",
             'LookupException: frame "posst" does not exist. '
-            "No transform of 'posst' has come yet; did you mean 'post'?",
+            "No transform of 'posst' has arrived yet; did you mean 'post'?",
             3,
         ),
         (

@@ -190,7 +190,7 @@ class NodeFailed(TftoolError):
     """Error that ends a run because a node raised an exception, which is stored as `__cause__`."""
 
     def __init__(self, node: str, error: BaseException, what: str = "") -> None:
-        """Create the error for a node that raised `error`; `what`, if given, replaces the text."""
+        """Create the error for a node that raised `error`; `what` replaces the text of `error`."""
         super().__init__(f"node '{node}' {what or f'failed: {failure_text(error)}'}")
         self.node = node
 
@@ -270,10 +270,12 @@ class LookupException(TransformException):
         near = near_names(self.frame, known, 3)
         if near:
             names = " or ".join(f"'{name}'" for name in near)
-            return f"No transform of '{self.frame}' has come yet; did you mean {names}?"
+            return f"No transform of '{self.frame}' has arrived yet; did you mean {names}?"
         if not known:
-            return f"No transform of '{self.frame}' has come yet, nor of any other frame."
-        return f"No transform of '{self.frame}' has come yet; {len(known)} other frames are known."
+            return f"No transform of '{self.frame}' has arrived yet, nor of any other frame."
+        return (
+            f"No transform of '{self.frame}' has arrived yet; {len(known)} other frames are known."
+        )
 
     def _names(self) -> list[str]:
         """Return the frame names that had been received when the error was created."""
