@@ -152,7 +152,7 @@ class Clock(ABC):
 
 
 class SimClock(Clock):
-    """Simulated clock: time stands still while a task runs, and jumps when all tasks wait.
+    """Simulated clock: no time passes while a task runs, and time jumps when all tasks wait.
 
     Two runs are exactly equal. One waiter is woken at a time, and all effects of this waiter are
     complete before the next waiter of the same instant is woken.
@@ -395,7 +395,7 @@ class WallClock(Clock):
         asyncio.get_running_loop().call_soon(self._wake)
 
     def _moment_before_now(self, due: Stamp | None, moment: Stamp) -> Stamp | None:
-        """Return the time of the head start to simulate next; None after the head start."""
+        """Return the next time to simulate of the head start; None after the head start."""
         real = self._real()
         behind = real - self._caught_up
         if due is not None and self._caught_up < due <= real and behind <= self._behind // 2:

@@ -192,7 +192,7 @@ class LaserPoint(_Observer):
 
 
 class ScanMatcher(_Observer):
-    """Node that broadcasts the laser's motion, as a scan matcher estimates it, in its own tree.
+    """Node that broadcasts an estimate of the laser's motion from scans, in a separate tree.
 
     The node ignores the published transform from the robot to the laser, and uses the true pose of
     the laser on the robot.

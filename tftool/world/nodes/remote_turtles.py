@@ -59,13 +59,13 @@ class FarTurtles(Node):
 
     The background is read from the parameters of the node that sends the poses. If that node is
     tftool's simulator, a service returns the strokes of the pens. ROS 2's own turtlesim has no such
-    service; its trail is drawn along the turtles' paths from now on, as if all pens had their
-    initial settings.
+    service. The trail then shows the turtles' paths from now on, as if all pens had their initial
+    settings.
 
     Attributes:
         trail: Lines of the pens.
         background: Colour of the field.
-        revision: Number that changes whenever the picture does.
+        revision: Number that changes with every change of the picture.
     """
 
     is_shown: ClassVar[bool] = False

@@ -75,7 +75,7 @@ class Information:
         self._codec: Codec = codec(self.kind)
 
     def raw(self) -> type[Any]:
-        """Return the class with which the library sends and receives these messages."""
+        """Return the class with which the library sends and receives messages of this format."""
         return Types(self._interfaces).raw(INFO)
 
     def encode(self, participant: bytes, nodes: dict[str, tuple[set[bytes], set[bytes]]]) -> bytes:
