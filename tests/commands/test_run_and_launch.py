@@ -212,7 +212,7 @@ NODE = "import rclpy\nrclpy.init()\nnode = rclpy.create_node('mine')\n"
             "'Foo' of std_msgs.msg is not covered. An interface is known by its definition: put",
         ),
         ("import rclpi\n", 1, "No module named 'rclpi'; did you mean 'rclpy'?\n"),
-        ("import tf2_kdl.x\n", 1, "named 'tf2_kdl'; it is not installed in the Python that runs"),
+        ("import tf2_kdl.x\n", 1, "named 'tf2_kdl'; the package is not installed in the Python"),
         ("import my_msgs.msg\n", 1, "put the package with its .msg, .srv and .action files into"),
         ("import rclpy\nrclpy.nope\n", 1, "'nope' of rclpy is not covered"),
         ("import cv_bridge\n", 1, "No module named 'cv_bridge'"),
@@ -283,7 +283,7 @@ def test_a_busy_program_that_the_end_of_for_breaks_off_is_named_and_fails(
     said = capsys.readouterr().err
     # The second text occurs if the machine is too slow to interrupt the program before the world
     # gives up.
-    told = ("'busy' did not return when the run ended and was broken off: ", "has not returned 2 s")
+    told = ("'busy' did not end with the run and was stopped: ", "has not returned 2 s")
     assert any(words in said for words in told)
 
 

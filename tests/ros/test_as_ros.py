@@ -123,7 +123,7 @@ def test_a_process_of_its_own_without_rclpy_is_told_how_to_have_it(tftool, tmp_p
 
     run = tftool("launch", "--simulated", "--for", "1", str(file))
     assert run.status == 1
-    assert "which has no rclpy here: start the node's file by python3 FILE" in run.err
+    assert "without tftool's rclpy: start the node's file by python3 FILE" in run.err
 
 
 @pytest.mark.parametrize(("word", "expected"), [("yes", "new:old"), ("off", "old:new")])

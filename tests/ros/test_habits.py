@@ -192,4 +192,4 @@ def test_a_lookup_before_the_node_is_spun_is_explained_once(ros_runtime, tmp_pat
 
     (line,) = ros_runtime.log(program.name)
     assert "nothing has arrived yet" in line
-    assert "Look up in a timer's callback" in line
+    assert "look up in a timer's callback" in line

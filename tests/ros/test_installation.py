@@ -68,7 +68,7 @@ def test_every_part_that_ros_would_not_find_is_listed(tftool, package):
     ("old", "new", "told"),
     [
         ("chase.turtle_follower:main", "chase.turtle_folower:main",
-         "names module 'chase.turtle_folower', which is not there; did you mean "
+         "names module 'chase.turtle_folower', which does not exist; did you mean "
          "'chase.turtle_follower'?"),
         ("chase.turtle_follower:main", "chase.turtle_follower:mian",
          "names function 'mian', which turtle_follower.py lacks; did you mean 'main'?"),

@@ -288,8 +288,8 @@ def test_a_container_that_dies_while_it_loads_is_told(tmp_path):
     done = launch(container_launch(tmp_path, dies), seconds=4, start=tmp_path)
 
     assert sorted(done.said("launch")) == [
-        "P was not loaded: the node that served 's/c/_container/load_node' has left",
-        "Q was not loaded: the node that served 's/c/_container/load_node' has left",
+        "P was not loaded: the node that served 's/c/_container/load_node' has ended",
+        "Q was not loaded: the node that served 's/c/_container/load_node' has ended",
     ]
     assert done.elapsed < 4
 
@@ -329,9 +329,9 @@ def test_components_are_left_out_with_a_line_and_the_rest_is_launched(tmp_path, 
     done = described(tmp_path, f"IncludeLaunchDescription({str(file)!r})")
 
     container, component, rest = done.said("launch")
-    assert container.startswith("left out: the container /s/box: 'rclcpp_components' is no package")
-    assert component.startswith("left out: p::Talker: components are libraries in C++")
-    assert "no container '/s/box' answers" in component
+    assert container.startswith("left out: the container /s/box: 'rclcpp_components' is not a")
+    assert component.startswith("left out: p::Talker: tftool cannot run components")
+    assert "no container '/s/box' runs" in component
     assert rest == "on"
 
 

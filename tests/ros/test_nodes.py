@@ -59,7 +59,7 @@ def test_a_node_knows_its_names(ros_runtime):
         (
             lambda rclpy, node: rclpy.create_node("n", namespace="a//b"),
             "InvalidNamespaceException",
-            "Invalid namespace: there must be something between two '/':\n  '/a//b'\n      ^",
+            "Invalid namespace: it must not contain '//':\n  '/a//b'\n      ^",
         ),
         (
             lambda rclpy, node: node.resolve_topic_name("a/2b"),
@@ -242,7 +242,7 @@ def test_a_node_that_forgets_its_beginning_is_told_so(node):
             self.create_timer(1.0, print)
             super().__init__("early")
 
-    with pytest.raises(AttributeError, match=r"super\(\).__init__\('its_name'\) comes before"):
+    with pytest.raises(AttributeError, match=r"call super\(\).__init__\('its_name'\) before you"):
         Early()
     with pytest.raises(AttributeError, match=r"'Node' object has no attribute 'spead'$"):
         _ = node.spead

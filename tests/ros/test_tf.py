@@ -518,7 +518,7 @@ def test_spin_once_ends_when_transforms_arrive_and_spin_is_not_woken(node, ros_r
     [
         ((0.0, 0.0, 0.0, 0.0), "is all zeros"),
         ((0.0, 0.0, 0.7, 0.8), "has length 1.063, not 1"),
-        ((0.0, 0.0, 90.0, 1.0), "quaternion_from_euler makes one of radians"),
+        ((0.0, 0.0, 90.0, 1.0), "use quaternion_from_euler for radians"),
     ],
 )
 def test_a_rotation_that_ros_would_refuse_is_told_once_where_it_is_sent(

@@ -119,7 +119,7 @@ def test_build_folders_and_hidden_ones_hold_no_packages(tmp_path):
     package(tmp_path / "src" / "off", package__xml="<name>off</name>", COLCON_IGNORE="")
 
     assert Workspace(tmp_path).packages == {}
-    with pytest.raises(UsageError, match="there is none at all"):
+    with pytest.raises(UsageError, match="there are no packages"):
         Workspace(tmp_path).package("x")
 
 

@@ -68,7 +68,7 @@ def _provide(root: Path) -> None:
         from tftool.ros.host.workspace import Workspace
         from tftool.ros.launch import packages
 
-        # For modules of tests and their fixtures; each test enters both again.
+        # These are for the import of tests and for their fixtures; each test enters them again.
         variables, imports = environment(), ros_modules()
         variables.__enter__()
         # Tests sleep and start threads as nodes do, so they need the same time.

@@ -20,7 +20,7 @@ KEYBOARD_NODE = "teleop_turtle"
 """Name of the node in which turtlesim's keyboard program runs."""
 
 TURTLE_PACKAGES = ("turtlesim", "turtlesim_msgs", *executables.TURTLE_TF_PACKAGES)
-"""Packages whose nodes and interfaces are of use only with a turtlesim."""
+"""Packages whose nodes and interfaces need a running turtlesim."""
 
 TURTLE_TOPICS = frozenset(("turtle1/cmd_vel", "turtle1/pose", "turtle1/color_sensor"))
 """Topics of the first turtle: a program that uses one needs a turtlesim."""
@@ -182,7 +182,7 @@ class TurtlesOnDemand:
     def host_for_topics(self) -> None:
         """Start turtlesim if a program uses a topic of the turtle `turtle1`."""
         if not self._is_asked and TURTLE_TOPICS & self._world.topics().keys():
-            # Not at once, because the world is just adding the topic.
+            # Start turtlesim later, because the world is adding the topic at this moment.
             asyncio.get_running_loop().call_soon(self.host)
 
     def host(self) -> None:

@@ -37,7 +37,7 @@ def missing_name(module: str, name: str, known: Sequence[str]) -> str:
         name: The name that a program tried to import.
         known: Names that the module has.
     """
-    # Propose only a name that may be meant by mistake; other existing names of ROS 2 differ more.
+    # Propose only very similar names, because another name of ROS 2 is probably no misspelling.
     near = near_names(name, known, alike=0.8)
     package = module.partition(".")[0]
     elsewhere = sorted(
@@ -63,7 +63,7 @@ def undeclared(parameter: str, known: Iterable[str]) -> str:
         known: Names of the parameters that the node declares, for "did you mean".
     """
     hint = did_you_mean(parameter, known)
-    return f"parameter '{parameter}' was given, but the node declares none of that name{hint}"
+    return f"parameter '{parameter}' was set, but the node declares no such parameter{hint}"
 
 
 def near_keyword(keyword: str, called: Any) -> str:
@@ -113,7 +113,7 @@ def missing_package(name: str) -> str:
             ".srv and .action files into the workspace's src"
         )
     return (
-        "it is not installed in the Python that runs tftool, and of ROS 2 tftool answers to "
+        "the package is not installed in the Python that runs tftool; of ROS 2, tftool provides "
         f"{', '.join(one for one in packages if one not in INTERFACES.packages())} and "
         "interface packages"
     )
@@ -137,7 +137,7 @@ def error_sentence(error: BaseException) -> str:
         return str(error)
     what = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
     if isinstance(error, ModuleNotFoundError) and error.name and str(error).endswith("'"):
-        # Python's own error text, which ends with the name.
+        # The error text is Python's own, which ends with the quoted name.
         what += f"; {missing_package(error.name.partition('.')[0])}"
     what += _near_name(error)
     place = user_line_of_error(error.__traceback__)

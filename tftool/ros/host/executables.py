@@ -276,7 +276,7 @@ COMMANDS = {
     ("rviz2", "rviz2"): ("view",),
     ("launch_testing", "launch_test"): ("ros2", "test"),
 }
-"""Programs of ROS in whose place `tftool run` runs a command of tftool."""
+"""ROS executables, as (package, name), that `tftool run` replaces by a command of tftool."""
 
 # Executables that tftool replaces by a command that needs a terminal of its own
 _ELSEWHERE = {

@@ -30,20 +30,22 @@ PATIENCE = 2.0
 """Real seconds that a fiber may be busy before a warning names its line of code."""
 
 GIVE_UP = 10.0
-"""Real seconds for which simulated time waits for a busy fiber; then the fiber is stopped."""
+"""Real seconds for which simulated time waits for a busy fiber before the fiber is stopped."""
 
 GRACE = 0.25
-"""Real seconds that a busy fiber may run on after a signal, before an exception is raised in it."""
+"""Real seconds that a busy fiber may continue after a signal before the fiber is interrupted."""
 
 GRACE_AT_END = 1.0
 """`GRACE` when a run ends without a signal; less than the time the world waits for a fiber."""
 
 AFTERLIFE = 50
-"""Number of waits that an interrupted fiber may start; then its thread is abandoned."""
+"""Number of waits that an interrupted fiber may start before its thread is abandoned."""
 
 LAST_REQUESTS = 1000
-"""Number of requests without a wait, such as to publish, of an interrupted fiber; further ones
-raise an exception, as its waits do."""
+"""Number of requests without a wait, such as to publish, that an interrupted fiber may make.
+
+Further requests raise an exception, as waits of the fiber do.
+"""
 
 
 _local = threading.local()
@@ -231,7 +233,8 @@ class Fiber:
         self._request = request
         if request is None:
             self.ended = True
-        # From here on the loop may run at any moment, so nothing below uses the request.
+        # From here on the event loop may run at any moment, so the code below does not use the
+        # request.
         self._rest.release()
         arrived = self._arrived
         if arrived is not None:
@@ -388,14 +391,14 @@ class Fiber:
         time, the exception is raised in the running code.
         """
         self.interrupted = True
-        # After Ctrl-C a person waits, so busy code is interrupted; at the end of --for busy code is
-        # a fault.
+        # After Ctrl-C a person waits, so busy code is interrupted. At the end of `--for`, busy code
+        # is an error.
         signalled = self._clock.interrupted
         for forced in (False, True):
             if forced:
                 if not signalled:
                     self._broken_off = (
-                        f"'{self.name}' did not return when the run ended and was broken off: "
+                        f"'{self.name}' did not end with the run and was stopped: "
                         f"{self.place() or 'no line of yours is running'}"
                     )
                 self._raise_in_thread(KeyboardInterrupt)

@@ -316,7 +316,7 @@ launch launch_ros: launch.action launch.condition launch.event launch.event_hand
     launch.launch_description_entity launch.some_entities_type launch.some_substitutions_type
     launch.substitution launch.utilities
 """
-"""Modules from which modules of ROS 2 import names, which can then be imported from these too.
+"""Imports inside ROS 2: a module's entry lists the modules whose names it contains too.
 
 An entry for launch or launch_ros means each module in the package.
 """
@@ -341,7 +341,7 @@ WHOLE_PACKAGES = (
     "rclpy", "launch", "launch_ros", "tf2_ros", "message_filters",
     "launch_testing", "launch_testing_ros", "launch_pytest", "launch.events", "launch_ros.events",
 )  # fmt: skip
-"""Packages whose submodules are attributes without being imported, as after `import launch`."""
+"""Packages whose submodules can be used after an import of the package alone."""
 
 
 def snake_case(name: str) -> str:

@@ -26,7 +26,7 @@ from tftool.ros.host.shims import IMPORTING, builtins_for_users
 from tftool.ros.host.workspace import TAKEN, WITH_MODULES
 
 DISTRIBUTION = "jazzy"
-"""ROS 2 distribution whose behaviour tftool has: the value of `ROS_DISTRO` for programs."""
+"""ROS 2 distribution that tftool imitates: the value of `ROS_DISTRO` for programs."""
 
 _OURS = Path(__file__).resolve().parents[2]
 """Folder of the package tftool, which may be below a user's folder."""
@@ -48,7 +48,7 @@ def real_ros() -> str:
 
 
 _LOADING = threading.RLock()
-"""Lock for loading a name: two threads at once would create two classes for one interface."""
+"""Lock for loading a name, because two threads would create two classes for one interface."""
 
 
 class _StandInModule(ModuleType):
@@ -101,7 +101,7 @@ class _StandInModule(ModuleType):
 _PARTS: Mapping[str, Sequence[str]] = MappingProxyType(
     {"srv": ("Request", "Response"), "action": ("Goal", "Result", "Feedback")}
 )
-"""Parts of an interface that its module contains under names such as `Trigger_Request`."""
+"""Parts of an interface that have classes of their own, such as `Trigger_Request`, by kind."""
 
 
 def _entries(module: str) -> Mapping[str, import_table.ImportedName]:
@@ -179,7 +179,7 @@ class _Finder(MetaPathFinder):
     def __init__(self) -> None:
         self.roots: list[Path] = []
         self.behind: list[Callable[[], Iterable[str]]] = []
-        """Functions that return further folders, which are searched last; called when needed."""
+        """Functions that return folders to search last; called at the first import of a module."""
         self.tested: Path | None = None
         """Folder of the tests and the tested code, whose modules get tftool's builtins."""
         self.on_import: dict[str, Callable[[], object]] = {}
@@ -224,7 +224,7 @@ class _Finder(MetaPathFinder):
         if spec.origin is None and path is None and find(fullname) is not None:
             return None  # A folder without __init__.py is a package only if there is no other.
         if spec.submodule_search_locations is not None:
-            # A list: Python's own object fails once the parent package is forgotten.
+            # Copy to a list: Python's own object fails once the parent package is unloaded.
             spec.submodule_search_locations = list(spec.submodule_search_locations)
         if not _is_users(_place(spec.origin, spec.submodule_search_locations), self.roots):
             return None

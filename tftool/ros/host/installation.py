@@ -21,7 +21,7 @@ _INSTEAD = {
     "launch_ros": ("launch_ros", "ros2launch"),
     "tf2_ros": ("tf2_ros", "tf2_ros_py"),
 }
-"""Dependencies that provide a module; another module needs the package of its own name."""
+"""Packages that a dependency on a module may name; by default the package named as the module."""
 
 _DEPENDENCY = re.compile(r"<(depend|exec_depend|run_depend)\b[^>]*>\s*([\w-]+)\s*<")
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
@@ -93,7 +93,7 @@ def entry_point_fault(package: Package, name: str) -> str:
     path = package.path.joinpath(*module.split("."))
     if not path.with_suffix(".py").is_file() and not (path / "__init__.py").is_file():
         hint = did_you_mean(module, [_module(package, file) for file in _sources(package)])
-        return f"entry point '{name}' names module '{module}', which is not there{hint}"
+        return f"entry point '{name}' names module '{module}', which does not exist{hint}"
     file = path.with_suffix(".py")
     names = _globals(file) if file.is_file() else set()
     first = function.partition(".")[0]
@@ -144,7 +144,7 @@ def _nodes_without_entry_point(package: Package) -> Iterator[InstalledPart]:
         yield InstalledPart(
             f"{file.relative_to(package.path)}: an entry point in setup.py",
             file,
-            f"no entry point begins {file.name}: add '{file.stem} = {module}:main' to "
+            f"no entry point starts {file.name}: add '{file.stem} = {module}:main' to "
             "console_scripts in setup.py",
         )
 

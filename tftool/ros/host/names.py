@@ -155,7 +155,7 @@ def topic_name_fault(name: str) -> Fault | None:
             return Fault("unknown substitution: not {node}, {ns} or {namespace}", found.start())
     plain = _SUBSTITUTION.sub(lambda found: "_" * len(found[0]), name)
     if brace := re.search(r"[{}]", plain):
-        return Fault("a brace has no partner", brace.start())
+        return Fault("a brace is not closed or not opened", brace.start())
     return _fault_of_parts(plain)
 
 
@@ -163,7 +163,7 @@ def _fault_of_parts(name: str) -> Fault | None:
     if name.endswith("/"):
         return Fault("it must not end with '/'", len(name) - 1)
     if "//" in name:
-        return Fault("there must be something between two '/'", name.index("//") + 1)
+        return Fault("it must not contain '//'", name.index("//") + 1)
     digit = _DIGIT_FIRST.search(name)
     return None if digit is None else Fault("a part must not start with a number", digit.start())
 

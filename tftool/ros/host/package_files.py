@@ -17,7 +17,7 @@ from tftool.base.errors import InputError
 from tftool.base.named_files import read_named_text
 
 MARKS = ("package.xml", "setup.py", "setup.cfg", "pyproject.toml")
-"""File names that mark a folder as a package; one is enough."""
+"""Names of files, each of which alone makes a folder a package."""
 
 
 @dataclass(frozen=True, slots=True)

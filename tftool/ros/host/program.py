@@ -35,16 +35,16 @@ REQUESTS = 10_000
 """Requests of any kind in one simulated instant before time advances."""
 
 TICK = seconds(0.001)
-"""Nanoseconds by which time advances at such a limit, so that a loop that polls can end."""
+"""Nanoseconds by which time advances at these limits, so that a loop that polls can end."""
 
 TICKS = 16
-"""Ticks without a wait between them after which the next ticks are twice as long."""
+"""Number of successive ticks, without a wait between them, after which a tick doubles."""
 
 POLLING = 10
-"""Weight of requests after a tick without a wait."""
+"""Factor by which a request counts more if the program has not waited since the last tick."""
 
 LONGEST_TICK = 64 * TICK
-"""Longest step of a loop that polls."""
+"""Longest tick, in nanoseconds."""
 
 
 _living: "set[Program]" = set()
@@ -270,7 +270,8 @@ class Program(Node):
         return asyncio.run_coroutine_threadsafe(_as_coroutine(request), self._loop).result()
 
     def _ask_beside(self, request: Callable[[], Any]) -> Any:
-        # The thread of a pool, for which a fiber waits: the loop waits meanwhile.
+        # This is the thread of a pool, for which a fiber waits. The event loop waits for the fiber,
+        # so the request can run in this thread.
         value = request()
         if inspect.isawaitable(value):
             fibers.discard(value)
@@ -342,7 +343,8 @@ class Program(Node):
         now = self.clock.now()
         if now != self._asked_at:
             self._asked_at, self._asked = now, 0.0
-        # After a tick without a wait, the loop only polls, and needs fewer requests to be known.
+        # A program that has not waited since the last tick probably polls, so its requests count
+        # more.
         self._asked += share * POLLING if now == self._polled_until else share
         if self._asked > 1.0 and not self.interrupted:
             self._asked = 0.0

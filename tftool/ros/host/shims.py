@@ -216,8 +216,10 @@ def _queues() -> ModuleType:
 
 
 IMPORTING = locks.UserRLock()
-"""Lock for imports of users' modules, which may sleep: Python's own locks would block the event
-loop, and simulated time with it."""
+"""Lock for imports of users' modules, which may sleep during the import.
+
+Python's own import locks would block the event loop, and with the loop simulated time.
+"""
 
 
 def _is_imported(name: str, fromlist: Any) -> bool:
@@ -253,7 +255,7 @@ def builtins_for_users() -> dict[str, Any]:
 
 
 SLICE: Duration = seconds(0.01)
-"""Longest single wait of a loop, after which it checks sockets and other threads."""
+"""Longest wait of an event loop, in nanoseconds, before the loop checks sockets and threads."""
 
 
 class _WorldSelector(selectors.DefaultSelector):
@@ -285,7 +287,7 @@ class UserEventLoop(asyncio.SelectorEventLoop):
 
 
 _replaced: list[asyncio.AbstractEventLoop] = []
-"""Loops that Python created for a thread; stored, because they would warn when collected."""
+"""Event loops that Python created for a thread, stored because a discarded loop logs a warning."""
 
 
 def _get_event_loop() -> asyncio.AbstractEventLoop:

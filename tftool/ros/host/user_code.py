@@ -58,12 +58,12 @@ def load_module(path: Path, name: str = "", code: CodeType | None = None) -> Mod
     module = ModuleType(name or path.stem)
     folders = [folder]
     if (folder / "__init__.py").is_file():
-        # As if installed, a node's file in a package can import the package by name, and
-        # neighbouring files with a leading dot.
+        # A node's file in a package can import the package by name, and neighbouring files with
+        # a leading dot, as if the package were installed.
         folders.insert(0, folder.parent)
         module.__package__ = folder.name
         if (folder / f"{folder.name}.py").is_file():
-            # The name is the package's, not that of the file in it.
+            # An import of this name must find the package, not the file of the same name in it.
             folders.reverse()
     for root in folders:
         importing.look_in(root)

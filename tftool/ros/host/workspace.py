@@ -70,13 +70,13 @@ def _link(file: Path, target: Path) -> None:
 
 
 SHARE = Path(__file__).resolve().parents[1] / "share"
-"""Folder of the launch files of ROS packages that tftool replaces."""
+"""Folder with tftool's own launch files of ROS packages."""
 
 _SKIPPED = {"build", "install", "log", "node_modules", "__pycache__", "venv", "site-packages"}
 _DEPTH = 5
 _KINDS = ("msg", "srv", "action")
 TAKEN = {*sys.stdlib_module_names, "tftool", "numpy", "yaml", "rich", "typer", "pytest"}
-"""Names of modules of Python and tftool, which a package of the same name would hide."""
+"""Names of Python's and tftool's modules, which a package of the same name would hide."""
 
 WITH_MODULES: set[str] = set()
 """Packages with both interfaces and Python modules."""
@@ -270,16 +270,16 @@ def missing_package(name: str, workspace: Workspace, ours: tuple[str, ...] = ())
     known = [*workspace.packages, *ours]
     near = near_names(name, known)
     hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(sorted(known))}"
-    where = f"below {workspace.start} or in the src it belongs to"
+    where = f"below {workspace.start} or in the src folder around it"
     skipped = "".join(f"\n{one}" for one in workspace.skipped)
     without = workspace.folder_without_mark(name)
     inside = [one for one, package in workspace.packages.items() if package.path.name == name]
     if inside:
-        hint = f"the folder '{name}' holds package '{inside[0]}': name that"
+        hint = f"the package in folder '{name}' is called '{inside[0]}': use this name"
     elif without is not None:
         hint = f"'{without}' has no package.xml, setup.py, setup.cfg or pyproject.toml: add one"
     elif not known:
-        hint = "there is none at all"
+        hint = "there are no packages"
     return f"there is no package '{name}' {where}; {hint}{skipped}"
 
 

@@ -370,7 +370,7 @@ class RegisterEventHandler(Action):
         if isinstance(handler, OnExecutionComplete) and getattr(handler.target, "is_begun", False):
             context.launch.warn(
                 "this OnExecutionComplete is never called, as in ROS 2: its "
-                f"{_kind(handler.target)} was executed before. Register it above its "
+                f"{_kind(handler.target)} was executed before. Register the handler above its "
                 "target_action"
             )
 

@@ -17,7 +17,7 @@ from tftool.world.clock import held, paced
 from tftool.world.node import Node
 
 LONGEST_LINE: Final = 1 << 20
-"""Bytes of an output line that has not ended, after which its beginning counts as a line."""
+"""Bytes of output without a line end that are passed on as a line of their own."""
 
 LONGEST_RUN: Final = 60.0
 """Real seconds for which a launch file waits for the output of a command."""
@@ -47,7 +47,7 @@ OnStart = Callable[[asyncio.subprocess.Process], object]
 OnLine = Callable[[str, bool], object]
 
 Streams = Sequence[tuple[asyncio.StreamReader, bool]]
-"""Streams of a command's output, each with whether it is the standard output."""
+"""Output streams of a command, as (stream, whether the stream is standard output)."""
 
 
 async def begin(command: SystemCommand) -> tuple[asyncio.subprocess.Process, Streams]:
@@ -87,7 +87,7 @@ async def begin(command: SystemCommand) -> tuple[asyncio.subprocess.Process, Str
 
 
 def _cannot_run(command: SystemCommand, error: OSError) -> UsageError:
-    # The error text for a missing folder has the form of the one for a missing command.
+    # The error text for a missing folder has the same form as for a missing command.
     missing = "" if error.filename in (None, command.words[0]) else f" '{error.filename}'"
     return UsageError(f"cannot run '{command.words[0]}': {error.strerror}{missing}")
 
@@ -215,7 +215,8 @@ class CommandRunner:
             self._limit = clock.real_timer(LONGEST_HOLD)
             running.add_done_callback(partial(finish, self._limit))
             await self._limit
-        # After this instant's programs, whose steps would else mix with the lines by chance.
+        # Wait for this instant's programs, whose output would otherwise mix with the lines by
+        # chance.
         await clock.timer(clock.now(), self._node.phase, self._node.rank)
         is_held = False
         for line, is_stdout in early:

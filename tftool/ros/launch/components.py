@@ -117,8 +117,8 @@ class LoadComposableNodes(Action):
                 return
             plugins = ", ".join(request.plugin_name for request in requests)
             context.launch.warn(
-                f"left out: {plugins}: components are libraries in C++, which do not run here, "
-                f"and no container '{container}' answers in this session"
+                f"left out: {plugins}: tftool cannot run components, which are C++ libraries, "
+                f"and no container '{container}' runs in this session"
             )
 
         context.launch.when_served(service, f"/{container.strip('/')}", go_on)
@@ -176,6 +176,6 @@ class ComposableNodeContainer(Node):
             if package is None:
                 return str(error)
             return (
-                f"'{package}' is no package of this workspace, and containers are programs in C++"
+                f"'{package}' is not a package of this workspace, and containers are C++ programs"
             )
         return ""

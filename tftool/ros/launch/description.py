@@ -13,7 +13,7 @@ from tftool.ros.launch.events import ExecutionComplete
 from tftool.ros.launch.substitutions import perform
 
 SomeEntitiesType = Any
-"""An action, or several, for annotations."""
+"""Type of an action or a list of actions, for annotations."""
 
 
 class LaunchDescriptionEntity:

@@ -40,7 +40,7 @@ from tftool.world.node import Node
 from tftool.world.world import World
 
 Say = Callable[[str, str, str], object]
-"""Function called with the level, the speaker ("launch", "listener-4") and the text of a line."""
+"""Function called with a log line: level, program (such as "launch" or "listener-4"), text."""
 
 
 SOONEST = 0.1
@@ -220,7 +220,7 @@ class Launch(Node):
             self._running[label]()
         else:
             name = signal.Signals(number).name
-            self.warn(f"{name} for {label} has no effect: it is no process of its own here")
+            self.warn(f"{name} for {label} has no effect: {label} runs in tftool's own process")
 
     def hear(self, topic: str, kind: type[Any], callback: Callable[[Any], object]) -> None:
         """Call `callback` with every message on a topic; end the launch if `callback` raises."""
@@ -250,7 +250,7 @@ class Launch(Node):
         self._say("", label, line)
         if line.endswith("No module named 'rclpy'"):
             self.warn(
-                f"{label} is a process of its own, which has no rclpy here: "
+                f"{label} runs in a process of its own, without tftool's rclpy: "
                 "start the node's file by python3 FILE, or by Node(executable=FILE)"
             )
         self._wrote(label, line, to_stdout=is_stdout)

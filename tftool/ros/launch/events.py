@@ -276,7 +276,7 @@ class OnShutdown(EventHandler):
 
 
 MOST_EVENTS = 1000
-"""Number of events that may cause one another before the launch is refused."""
+"""Number of successive events, each caused by a handler of another, that ends the launch."""
 
 
 class EventQueue:

@@ -99,7 +99,7 @@ def _optional(element: Element, name: str, default: Any = None) -> Any:
 
 
 YAML_FLAGS = {"yes": True, "on": True, "no": False, "off": False}
-"""Further words for true and false in attributes that ROS reads as YAML."""
+"""Words besides "true" and "false" for attributes that ROS reads as YAML."""
 
 
 def _flag(element: Element, name: str, default: str) -> bool:
@@ -398,7 +398,7 @@ def _from_python(path: Path) -> LaunchDescription:
         if make is None:
             defined = [name for name, one in vars(module).items() if isinstance(one, FunctionType)]
             near = near_names(MAKES, defined)
-            hint = f"; it has '{near[0]}': name that so" if near else ""
+            hint = f"; rename its function '{near[0]}'" if near else ""
             raise InputError(f"'{path}' is not a launch file: it has no function {MAKES}(){hint}")
         description = make()
     except InputError:

@@ -83,7 +83,7 @@ class LaunchConfig:
     def set_log_format(self, log_format: str, *, log_style: str | None = None) -> None:
         """Set the format of lines in log files: "default", or a format such as "{message}"."""
         if log_format == "default":
-            # Log files have the default format with times; on the screen it has none.
+            # The default format contains the time in log files, but not on the screen.
             _formatter(log_format, log_style)
             log_format = "default_with_timestamp"
         self._log_format = _formatter(log_format, log_style)

@@ -325,7 +325,7 @@ def _is_uniform(values: Sequence[Any]) -> bool:
 def _not_uniform(values: Sequence[Any]) -> str:
     return (
         "Expected a non-empty sequence of bool, int, float or str alone, not "
-        f"{list(values)!r}; a text in it that names a type of its own is wrapped in ParameterValue"
+        f"{list(values)!r}; wrap a text in ParameterValue to give its type"
     )
 
 

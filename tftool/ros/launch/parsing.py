@@ -38,7 +38,7 @@ class _Quoted(list[Any]):
 
 
 _ESCAPED = tuple("$()'\"\\")
-"""Characters with a special meaning, which a backslash before them removes."""
+"""Characters with a special meaning; after a backslash, each stands for itself."""
 
 
 def _end_of_quote(text: str, start: int) -> int:
@@ -148,4 +148,4 @@ def _spaced(words: Iterable[list[Any]]) -> list[Any]:
 
 
 EXPOSED: dict[str, Callable[..., Any]] = {"eval": _expression}
-"""Functions that create substitutions by tag: special ones, and users' own."""
+"""Functions that create substitutions, by tag: for `$(eval …)` and for users' own tags."""

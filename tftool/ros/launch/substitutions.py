@@ -42,7 +42,7 @@ class Substitution:
 
 
 SomeSubstitutionsType = Any
-"""Type of an argument that is a text, a substitution or a list of both, for annotations."""
+"""Type of a text, a substitution, or a list of texts and substitutions, for annotations."""
 
 
 def perform(context: LaunchContext, value: Any) -> str:
@@ -440,8 +440,8 @@ class Command(Substitution):
         except subprocess.TimeoutExpired:
             limit = f"{commands.LONGEST_RUN:g} s"
             raise SubstitutionFailure(
-                f"the command {words} had not ended after {limit}: the launch waits for its "
-                "output. Use ExecuteProcess for a command that goes on running"
+                f"the command {words} had not ended after {limit}, and the launch needs its "
+                "output: use ExecuteProcess for a command that keeps running"
             ) from None
         except (OSError, subprocess.CalledProcessError) as error:
             raise SubstitutionFailure(f"the command {words} failed: {error}") from None

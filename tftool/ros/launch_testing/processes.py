@@ -14,7 +14,7 @@ from tftool.ros.host import program
 from tftool.ros.host.shims import SLICE
 
 Condition = Callable[[Any, Any], Any]
-"""Function of an action and a user's function; returns whether the wait is over."""
+"""Function that takes an action and a user's function and returns whether the wait is over."""
 
 
 def _limit(timeout: float | None) -> Callable[[], bool]:

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 Span = tuple[int, int] | None
-"""Start and end index of a match; None without a match."""
+"""Match as (index, index after the match); None without a match."""
 
 _ESCAPES = re.compile(r"\x1b\[[0-?]*[ -/]*[@-~]")
 

@@ -254,7 +254,8 @@ class ActionServer(WorkQueue):
         try:
             response = await outcome(self._on_goal(handle.request))
         except Exception:
-            # As in ROS 2, the exception ends the executor; the client must not wait for ever.
+            # As in ROS 2, the exception ends the executor. Reject the goal, so that the client
+            # does not wait for ever.
             ask(lambda: self._decide(goal, False))
             raise
         accepted = ask(lambda: self._decide(goal, response == GoalResponse.ACCEPT))

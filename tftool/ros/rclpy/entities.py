@@ -24,7 +24,7 @@ Work = Callable[[], Any]
 
 
 MOST_WAITING: Final = 1000
-"""Largest number of queued requests or goals; further ones are refused."""
+"""Largest number of queued requests or goals; further requests and goals are refused."""
 
 
 @contextmanager
@@ -41,7 +41,7 @@ class NodeEntity:
     is_a_callback = False
     """Whether the entity is a callback of the user that only an executor calls."""
     only_ends_spin_once = False
-    """Whether the entity has no work, but ends a `spin_once` as its counterpart in ROS 2 does."""
+    """Whether the entity only makes `spin_once` return, as the same object in ROS 2 does."""
 
     def __init__(self, seat: NodeSeat, group: Any) -> None:
         self.seat = seat

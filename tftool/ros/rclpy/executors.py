@@ -58,7 +58,7 @@ class Executor:
         self._tasks: deque[tuple[Task, Any]] = deque()
         """Tasks to continue, each with the callback group that the task occupies, or None."""
         self._has_released = False
-        """Whether a callback group became free since this executor last looked for work."""
+        """Whether a callback of a group has ended since this executor last looked for work."""
         self._wakers: list[asyncio.Future[None]] = []
         self._reached: Stamp = 0
         self._over = False
@@ -266,8 +266,8 @@ class Executor:
             self._has_released = False
             self.wake()
         while True:
-            # Registered before the search for work, so that work added by another thread meanwhile
-            # wakes it.
+            # Register the waker before the search for work, so that work which another thread adds
+            # during the search wakes this thread.
             waker: asyncio.Future[None] = asyncio.get_running_loop().create_future()
             self._wakers.append(waker)
             try:
@@ -312,7 +312,7 @@ class Executor:
             yield from (one for one in seat.entities if not isinstance(one, Timer))
 
     def _is_ready(self, entity: NodeEntity) -> bool:
-        # Most entities have no work, so that question comes first.
+        # Most entities have no work, so this condition is tested first.
         if not (entity.ready() and self._counts(entity)):
             return False
         if isinstance(entity, Timer) and self._program.strict and not self._has_turn(entity.due):
@@ -415,8 +415,7 @@ class MultiThreadedExecutor(Executor):
         def left() -> None:
             self._workers -= 1
             if self._let_go is not None and self._let_go is not let_go:
-                # This worker was busy when the next round began, which needs another worker in its
-                # place.
+                # This worker was still busy when another spin began, which needs a new worker.
                 self._hire(self._let_go)
             self.wake()
 

@@ -41,8 +41,7 @@ class Future:
         self._callbacks: list[Callable[[Any], object]] = []
         self._watchers: list[Callable[[Any], object]] = []
         self._executor = executor
-        # Results come from other threads than the calls. The lock is never held while a callback
-        # runs.
+        # A result may be set in another thread. The lock is never held while a callback runs.
         self._mutex = threading.Lock()
 
     def __await__(self) -> Generator[Any, None, Any]:

@@ -96,7 +96,7 @@ class Node(NodeGraph, NodeParameters):
         def __getattr__(self, name: str) -> Any:
             sentence = f"'{type(self).__name__}' object has no attribute '{name}'"
             if "_tftool" not in self.__dict__:
-                sentence += ": super().__init__('its_name') comes before everything else of a node"
+                sentence += ": call super().__init__('its_name') before you use the node"
             raise AttributeError(sentence)
 
     # Names, clock and executor
@@ -138,7 +138,7 @@ class Node(NodeGraph, NodeParameters):
             return
         if before is not None:
             before.remove_node(self)
-        # An executor of the user's own class may not know that it serves the node from now on.
+        # An executor class of the user may not know that the executor has this node from now on.
         self._tftool.executor = (
             executor if executor is not None and executor.add_node(self) else None
         )
@@ -261,7 +261,7 @@ class Node(NodeGraph, NodeParameters):
         return self.__keep(Timer, callback, period, group, goes_by, autostart)
 
     def _warn_of_missing_callback(self, place: CodeLine | None) -> None:
-        # rclpy accepts None too, for a timer that is only waited for; in a learner's node it is a
+        # rclpy accepts None for a timer without a callback, but in a learner's node None is a
         # mistake.
         if place is not None:
             self.get_logger().warning(

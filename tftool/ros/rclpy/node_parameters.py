@@ -537,7 +537,7 @@ def teller(seat: NodeSeat) -> Callable[..., None]:
         changed: Sequence[Parameter] = (),
         deleted: Sequence[Parameter] = (),
     ) -> None:
-        # Parameters change far more often than there is a subscriber.
+        # Most changes of parameters have no subscriber.
         if not publisher.get_subscription_count():
             return
         event = kind(

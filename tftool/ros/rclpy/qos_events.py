@@ -135,8 +135,8 @@ class Silence:
             self._timer.cancel()
 
     def _wait(self, limit: int) -> None:
-        # The timer is not restarted at each sign of life, as there may be thousands; the time is
-        # checked at its end.
+        # There may be thousands of signs of life, so the timer is not restarted at each of them.
+        # The time of the last sign is checked when the timer ends.
         clock = self._seat.program.clock
         self._timer = clock.timer(self._last + limit, Phase.WATCH)
         self._timer.add_done_callback(lambda timer: self._look(timer, limit))

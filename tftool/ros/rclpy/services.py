@@ -18,7 +18,7 @@ from tftool.ros.rclpy.futures import Future
 from tftool.ros.rclpy.seat import NodeSeat
 
 START_TYPE_DESCRIPTION_SERVICE_PARAM = "start_type_description_service"
-"""Parameter that makes ROS 2's nodes describe their types; without effect here."""
+"""Parameter that starts a type description service in ROS 2; without effect in tftool."""
 
 
 class ServiceIntrospectionState(IntEnum):
@@ -162,4 +162,4 @@ class Service(ServiceEnd):
         self._stop()
         for answer in self._open:
             if not answer.done():
-                answer.set_exception(TftoolError(f"the node that served '{self.full}' has left"))
+                answer.set_exception(TftoolError(f"the node that served '{self.full}' has ended"))

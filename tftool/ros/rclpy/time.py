@@ -18,7 +18,7 @@ S_TO_NS = NANOSECONDS
 _RANGE = 2**63
 
 _FOR_EVER = 10**18
-"""Nanoseconds longer than any run, as a duration without end."""
+"""Nanoseconds of a sleep without end, longer than any run."""
 
 
 class ClockType(IntEnum):

@@ -77,8 +77,8 @@ class TopicEnd(NodeEntity):
             full,
             kind.interface__,
             self._quality,
-            # A latched subscription gets messages of other processes, also earlier ones, from the
-            # connection itself.
+            # A latched subscription gets other processes' messages, including earlier messages,
+            # from the connection itself.
             deliver=deliver if self._is_latched else None,
             kept=deque(maxlen=_room(profile)) if keeps else None,
         )

@@ -56,7 +56,7 @@ pkg xml: package -t
 """Arguments of each command, in brackets if they may be left out, and its options."""
 
 _ASKING = ("--no-daemon", "-s/--use-sim-time", "--spin-time")
-"""Options of ROS 2 for queries of the graph, which have no effect here."""
+"""Options of ROS 2 for queries of the graph, which have no effect in tftool."""
 
 
 def _rate(text: str) -> float:

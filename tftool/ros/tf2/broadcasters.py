@@ -66,7 +66,7 @@ class TransformListener:
 
         arrivals = _Arrivals(self._member, self._stop)
         program = self._member.program
-        # A recording is played again, or a simulation starts again.
+        # The clock jumps back if a recording is played again or a simulation starts again.
         watch = Watch(
             lambda: self.buffer.frames.clear(),
             lambda _, text: program.say("WARN", program.name, text),
@@ -202,7 +202,7 @@ class TransformBroadcaster:
                 f"the parent of '{parent}' already. frame_id is the parent"
             )
         elif before not in (None, parent):
-            # A frame may move to another parent for good.
+            # A frame may move to another parent once and remain there.
             self._turns[child] = self._turns.get(child, 0) + 1
             fault = (
                 f"'{child}' has two alternating parents, '{before}' and '{parent}': a frame has "
@@ -223,7 +223,7 @@ class TransformBroadcaster:
             self._report_once(
                 "stamp",
                 sample.child_frame_id,
-                "header.stamp of '{}' is 0, so a lookup for any moment but the latest is refused: "
+                "header.stamp of '{}' is 0, so lookups at any time but the latest fail: "
                 "write self.get_clock().now().to_msg()",
             )
         turn = sample.transform.rotation
@@ -237,16 +237,16 @@ class TransformBroadcaster:
                 self._report_once(
                     "rotation",
                     sample.child_frame_id,
-                    "the rotation of '{}' is half a turn about x, for x = 1.0 and w = 0.0; if no "
-                    "turn is meant, w is 1.0: the order is x, y, z, w",
+                    "the rotation of '{}' is half a turn about x, because x is 1.0 and w is 0.0: "
+                    "write w = 1.0 if no rotation is meant; the order is x, y, z, w",
                 )
             return
         if not square:
-            fault = "is all zeros, which no buffer takes: no turn at all is w = 1.0"
+            fault = "is all zeros, which every buffer rejects: write w = 1.0 for no rotation"
         else:
-            fault = f"has length {square**0.5:.4g}, not 1: ROS 2 refuses it, here it is scaled"
+            fault = f"has length {square**0.5:.4g}, not 1: ROS 2 refuses it, tftool scales it"
             if max(map(abs, turn)) > 1.5:
-                fault += "; an angle is no part of it: quaternion_from_euler makes one of radians"
+                fault += "; x, y, z and w are no angles: use quaternion_from_euler for radians"
         self._report_once("rotation", sample.child_frame_id, f"the rotation of '{{}}' {fault}")
 
     def _report_once(self, what: str, child: str, fault: str) -> None:

@@ -17,10 +17,10 @@ PATIENCE = seconds(3.0)
 """Nanoseconds of failures, without a success, after which the reason is logged."""
 
 MANY = 10
-"""Smallest number of lookups for which those at times not yet known are reported."""
+"""Number of lookups at times newer than the data after which a hint is logged."""
 
 ONCE = seconds(2.0)
-"""Age of a frame's only sample after which the frame counts as sent once."""
+"""Nanoseconds of age after which a frame's only sample counts as sent once."""
 
 
 class LookupHints:
@@ -75,8 +75,8 @@ class LookupHints:
                 self._say(
                     f"once {once.frame}",
                     f"'{once.frame}' was sent once, at {as_seconds(once.newest):.3f} s: "
-                    "a transform that never changes goes to a StaticTransformBroadcaster, one "
-                    "that may change is sent again and again",
+                    "send a transform that never changes with a StaticTransformBroadcaster, and "
+                    "any other transform repeatedly",
                 )
             elif error.requested > error.available:
                 self._early += 1
@@ -107,10 +107,10 @@ class LookupHints:
         return early >= 3 and 5 * early >= self._asked
 
     def _early_text(self) -> str:
-        told = f"{self._early} of {self._asked} lookups asked for a moment not yet known"
+        told = f"{self._early} of {self._asked} lookups were for a time newer than the transforms"
         if self._just_in_time:
             told += (
-                f", {self._just_in_time} for the very moment of a transform, which arrives later "
+                f", {self._just_in_time} for exactly the stamp of a transform, which arrives later "
                 "outside simulated time"
             )
         return f"{told}: use Time(), the latest, or a timeout"
@@ -135,15 +135,15 @@ class LookupHints:
         if self._frames.frames():
             return
         if not self.has_listener:
-            why = "nothing fills this buffer: keep a TransformListener(buffer, node) beside it"
+            why = "nothing fills this buffer: create and store a TransformListener(buffer, node)"
         elif any(one.was_served for one in owner.nodes):
             return
         else:
             why = (
-                "nothing has arrived yet: the node is not spun so far. Look up in a timer's "
+                "nothing has arrived yet, as the node has not been spun: look up in a timer's "
                 "callback, or give the lookup a timeout"
             )
-        self._say("nothing", f"a lookup was refused because {why}")
+        self._say("nothing", f"a lookup failed because {why}")
 
     def _say_missing(self, error: LookupException) -> None:
         if error.frame is not None and "nothing" not in self._said:
