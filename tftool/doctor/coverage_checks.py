@@ -347,7 +347,10 @@ def _waiting(model: Model, limits: Limits) -> Iterator[tuple[Heard, Waits]]:
 
 
 def _is_result(model: Model, heard: Heard, link: Track) -> bool:
-    """Whether the publisher of `link` also sends the messages: poses that nobody has to look up."""
+    """Whether one node sends the edge `link` and, as its result, the messages of a topic.
+
+    Such a result, for example the pose of a localiser, needs no lookup.
+    """
     nodes = {one.node for one in model.evidence.publishers if one.topic == heard.topic}
     is_own = heard.frame == link.child and not heard.type.startswith("sensor_msgs/")
     return is_own and bool(nodes & set(link.nodes))

@@ -224,7 +224,7 @@ class Model:
 
     @cached_property
     def edges_above(self) -> dict[str, list[Track]]:
-        """Mapping from each child's name to the edges of the child, in the order of `tracks`."""
+        """Mapping from each child's name to the edges that end at it, in the order of `tracks`."""
         edges: dict[str, list[Track]] = {}
         for track in self.tracks:
             edges.setdefault(track.child, []).append(track)
@@ -379,7 +379,7 @@ class Model:
 
     @cached_property
     def warm(self) -> tuple[Stamp, Stamp]:
-        """Log times of the begin and end of coverage checks: `WARM_UP` inside the recording."""
+        """First and last log time for checks of coverage, which ignore `WARM_UP` at each end."""
         return self.start + WARM_UP, self.end - WARM_UP
 
     def log_of(self, stamp: Stamp) -> Stamp:
@@ -461,7 +461,7 @@ class Model:
             stream.arrivals = np.where(is_sim, on_clock, stream.arrivals)
 
     def _find_shift(self, streams: list[Stream]) -> None:
-        """Set `shift` to the constant by which most stamps differ from arrivals, and remove it."""
+        """Set `shift` to the constant delay of most streams, and subtract it from the arrivals."""
         late, spreads, moving, kept = [], [], [], []
         for stream in streams:
             is_moving = False

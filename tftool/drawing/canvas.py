@@ -403,7 +403,7 @@ def axis_length(view: Viewport, rows: int) -> float:
 
 
 def metres(value: float, step: float) -> str:
-    """Format a number of a scale with the decimals that the `step` between two numbers needs."""
+    """Format the label of a tick; `step`, the distance of two ticks, sets the decimals."""
     digits = max(0, -math.floor(math.log10(step) + 1e-9))
     text = f"{value:.{digits}f}"
     return "0" if not text.strip("-0.") else text

@@ -76,7 +76,7 @@ def packed(color: Color | None) -> int:
 
 
 def blended(colors: Numbers, end: Color, share: float | Points) -> Numbers:
-    """Mix packed colours with `end`; `share` is the fraction of `end`, for all or per colour."""
+    """Mix packed colours with `end`; `share` is the fraction of `end`, one or one per colour."""
     parts = np.stack([colors >> 16, colors >> 8 & 255, colors & 255], -1)
     mixed = np.rint(parts + np.asarray(share)[..., None] * (np.array(end) - parts)).astype(np.int64)
     return np.where(colors < 0, NONE, mixed @ np.array([1 << 16, 1 << 8, 1]))
@@ -181,7 +181,7 @@ class Dots:
         self.colors[cells] = colors
 
     def cover(self, above: "Dots") -> None:
-        """Draw the cells of `above` that have dots over these cells, which are replaced."""
+        """Copy all cells that have dots from `above`, with their colours."""
         marked = above.masks > 0
         self.masks[marked], self.colors[marked] = above.masks[marked], above.colors[marked]
 

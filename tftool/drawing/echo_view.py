@@ -69,8 +69,8 @@ _NUMBER = re.compile(r"(?<![\w.])-?(?:\d+(?:\.\d+)?(?:e[-+]?\d+)?|nan|inf)(?![\w
 def painted(found: TransformStamped, *, precision: int = 3, with_distance: bool = False) -> "Text":
     """Return the lines of `block` for a terminal, with x, y and z in the colours of the axes.
 
-    Roll, pitch and yaw have the colours of their axes. The matrix's columns have these colours too,
-    because they are the source's axes in the target.
+    Roll, pitch and yaw have the colours of the axes x, y and z. The columns of the matrix have the
+    same colours, because the columns are the axes of the source in the target.
     """
     from rich.text import Text
 

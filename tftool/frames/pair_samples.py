@@ -180,7 +180,7 @@ def fastest(buffer: Buffer, links: list[str]) -> tuple[str, Stamps] | None:
 
 
 def moving_span(buffer: Buffer, links: list[str]) -> tuple[Stamp, Stamp]:
-    """Return the first and the last stamp of moving frames; 0 and 0 if all are static."""
+    """Return the first and the last stamp of moving frames; (0, 0) if all frames are static."""
     ends = []
     for frame in links:
         held = buffer.samples(frame)

@@ -302,7 +302,10 @@ class _Solver:
         return np.array(self.published.rotation)
 
     def _along(self, shift: Floats, axis: Floats) -> Floats:
-        """Replace a translation's component along `axis` by the published mount's, or by 0."""
+        """Replace a translation's component along `axis` by that of the published mount.
+
+        Without a published mount, the component becomes 0.
+        """
         kept = 0.0 if self.published is None else np.array(self.published.translation) @ axis
         return np.asarray(shift - (shift @ axis) * axis + kept * axis)
 
