@@ -33,11 +33,12 @@ CONSTANTS_AHEAD = seconds(1)
 @check(
     "clock-mixture",
     Severity.ERROR,
-    rule="stamps below and above 10⁸ s occur together in transforms, joint states and "
-    "messages with a position; the wrong ones are those that differ from /clock, or "
-    "else the smaller group. An error only if they are those of moving transforms, or of "
-    "sensors and odometry whose frames move; a warning for other messages, and if each clock has a "
-    "tree of its own. A note if they are single messages, or their frames are placed by statics",
+    rule="stamps below and above 10⁸ s occur together in transforms, joint states and messages "
+    "with a position. The stamps that differ from /clock count as wrong; without /clock, "
+    "those of the smaller group. An error only if the wrong stamps are those of moving "
+    "transforms, or of sensors and odometry whose frames move. A warning for other messages, "
+    "and if each clock has a tree of its own. A note for single messages, and for messages in "
+    "frames that static transforms place",
     headline="{where}{once} {concerned:is|are} stamped with {odd_clock}, {others} with "
     "{usual_clock}",
     detail="for example {odd_stamp:dated} beside {usual_stamp:dated}",
@@ -162,9 +163,9 @@ def _example(group: "list[Track | Heard]", simulated: bool) -> int:
 @check(
     "shifted-clock",
     Severity.NOTE,
-    rule="more than half of all streams are stamped by one constant of more than 2 s before "
-    "or after their reception, to within 1 s. A warning if they are after it, as an older "
-    "recording that is played cannot be",
+    rule="more than half of all streams have stamps that differ from their reception by the same "
+    "constant, more than 2 s and equal to within 1 s. A warning if the stamps are after the "
+    "reception, because a recording that is played again cannot have such stamps",
     headline="{most} stamps are {by:span} {side} their reception, constant to {spread:span}",
     detail="{streams} of {of} streams; latencies and the cache are judged against the clock of the "
     "stamps",
@@ -213,9 +214,9 @@ def _has_unshifted(model: Model, shift: Shift) -> bool:
 @check(
     "future-stamp",
     Severity.NOTE,
-    rule="the median latency of a transform is below -{seconds:g} s (for a transform from "
-    "map to odometry: -{localisation:g} s). Not reported if"
-    " it is ahead by its own period, or is a constant that is up to 1 s ahead",
+    rule="the median latency of a transform is below -{seconds:g} s (for a transform from map to "
+    "odometry: -{localisation:g} s). Not reported if the transform is ahead by its own "
+    "period, or by a constant of up to 1 s",
     headline="{where} {concerned:is|are} dated {ahead:span} ahead of {concerned:its|their} arrival",
     detail="{edge}: {ahead:span} ahead (median){clock}",
     consequence="the latest common time is in the future: a lookup of the latest transform combines"
@@ -228,9 +229,9 @@ def _has_unshifted(model: Model, shift: Shift) -> bool:
     links=threads("ros-navigation/navigation2#3166"),
     limits={"seconds": 0.02, "localisation": 2.0},
     needs=("log times",),
-    why="AMCL stamps its transform 1 s ahead, and offsets of 0.1 s are in use; ROS 1's "
-    "static publishers and gmapping stamp theirs one period ahead, its "
-    "robot_state_publisher fixed joints 0.5 s",
+    why="AMCL stamps its transform 1 s ahead, and offsets of 0.1 s are in use. ROS 1's static "
+    "publishers and gmapping stamp their transforms one period ahead; ROS 1's "
+    "robot_state_publisher stamps fixed joints 0.5 s ahead",
     because_of=(("stream", "clock-mixture clock-offset"),),
 )
 def future_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
@@ -276,8 +277,8 @@ def _ahead(model: Model, track: Track, ahead: int) -> Hit:
 @check(
     "wild-stamp",
     Severity.WARNING,
-    rule="at most one stamp in a hundred, or a single one, differs by more than an hour from"
-    " the stamps of the messages before and after",
+    rule="at most one stamp in a hundred of a stream, or a single stamp, differs by more than an "
+    "hour from the stamps of the messages before and after",
     headline="{where} {concerned:has|have} a stamp that lies {off:span} {side} the others",
     detail="{what}: {count} of {of}, {stamp:dated}",
     consequence="after a transform stamped ahead, tf2 drops further ones until time reaches it; one"
@@ -288,8 +289,8 @@ def _ahead(model: Model, track: Track, ahead: int) -> Hit:
         "one message stamped before the clock was set",
     ),
     needs=("log times",),
-    why="for a late message or a slow clock the difference is seconds, and other messages "
-    "have it too",
+    why="a late message or a slow clock causes a difference of seconds, and other messages have "
+    "this difference too",
 )
 def wild_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     """Single stamps differ greatly from the stamps before and after."""
@@ -317,12 +318,12 @@ def wild_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "clock-offset",
     Severity.WARNING,
-    rule="the median latency of a sensor's messages is below -{seconds:g} s (for a laser "
-    "scan: less one scan), or messages or transforms are on the recorder's clock in a recording "
-    "that is shifted as a whole. An error if such a transform is off by more than the cache time. "
-    "A note up to {certain:g} s, or if steady streams (95 % within {spread:g} s, "
-    "{samples:g} messages), none ahead and each later than its own period, form groups "
-    "more than {apart:g} s apart",
+    rule="the median latency of a sensor's messages is below -{seconds:g} s (for a laser scan, "
+    "after the duration of one scan is added). Or messages or transforms are stamped by the "
+    "recorder's clock in a recording whose other stamps are shifted as a whole. An error if a "
+    "transform is off by more than the cache time. A note up to {certain:g} s. A note also "
+    "if steady streams (95 % within {spread:g} s, {samples:g} messages), none ahead and each "
+    "later than its own period, form groups more than {apart:g} s apart",
     headline="{topic} {found}",
     detail="{groups}{sources}",
     consequence="{so}",
@@ -340,8 +341,8 @@ def wild_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
         "log times",
         "headers",
     ),
-    why="a message cannot arrive before it is made; rounding of stamps is below 20 ms, and "
-    "a scan may be stamped with its end",
+    why="a message cannot arrive before its measurement; rounding of stamps is below 20 ms, and a "
+    "scan may be stamped with its end",
     because_of=(("stream", "clock-mixture"),),
 )
 def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:

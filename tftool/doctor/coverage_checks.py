@@ -26,10 +26,11 @@ check = checks_of(Area.COVERAGE)
 @check(
     "static-missing",
     Severity.ERROR,
-    rule="no static topic has a message, and messages are in frames that tf does not know, and "
-    "that the description or a name such as laser_link shows as mounts. A warning without a scan, "
-    "a point cloud or a range among them, or without a base frame in tf. Not reported if there is "
-    "no static topic and constants are sent on /tf, as in early ROS 1",
+    rule="no topic for static transforms has a message, and messages are in frames that are in no "
+    "transform, but are mounts by the description or by a name such as laser_link. A warning "
+    "if none of these messages is a scan, a point cloud or a range, or if tf has no base "
+    "frame. Not reported if the recording has no such topic and constants are sent on /tf, as "
+    "in early ROS 1",
     headline="no transform names {frames}: {why}",
     detail="messages are in {frames}, which no transform names",
     consequence="these messages cannot be placed",
@@ -82,7 +83,7 @@ def static_missing(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "static-not-latched",
     Severity.ERROR,
-    rule="a publisher offers a static topic with durability volatile",
+    rule="a publisher offers a topic for static transforms with the durability volatile",
     headline="{topic} is offered {volatile} by {by}",
     consequence="a listener that starts later never gets these statics",
     fixes=(Fix("publish it {latched} (a StaticTransformBroadcaster does)"),),
@@ -107,8 +108,9 @@ def static_not_latched(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "static-late",
     Severity.NOTE,
-    rule="a static first arrives more than {seconds:g} s after the first message in a frame "
-    "below it, and is not dated before that message: then only the recorder heard it late",
+    rule="a static first arrives more than {seconds:g} s after the first message in a frame below "
+    "it. Not reported if the static's stamp is before that message, because then only the "
+    "recorder received the static late",
     headline="{where} {concerned:arrives|arrive} later than messages that need {concerned:it|them}",
     detail="{edge}: {late:span} late; before it: {missed}",
     consequence="a listener that ran from the start could not place these messages, although the "
@@ -156,8 +158,8 @@ def static_late(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "latched-overwrite",
     Severity.NOTE,
-    rule="the last static message of a publisher lacks some children; in rosbag2, which knows no "
-    "publishers, the last {kept:g} messages do",
+    rule="the last message with statics of a publisher lacks some of its child frames. In rosbag2, "
+    "which stores no publishers, the last {kept:g} messages together lack some",
     headline="statics are in {messages} messages",
     detail="{told} {lost}",
     consequence="a player keeps only so many for late listeners",
@@ -263,12 +265,13 @@ def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Wa
 @check(
     "sensor-outruns-tf",
     Severity.WARNING,
-    rule="the 95 % quantile of the waits for the last transform that a scan, a point cloud or a "
-    "range on the robot needs is {seconds:g} s or more, or a share above {never:g} never gets it; "
-    "a share above {some:g} has to wait. A note for other messages, or if a share"
-    " above {refused:g} has to wait and the quantile is {note:g} s or more. At least "
-    "{messages:g} messages, which are not markers or those of an IMU, a compass or a "
-    "satellite receiver, nor odometry, paths or maps",
+    rule="a scan, a point cloud or a range on the robot waits for the last transform that a lookup "
+    "at its stamp needs. The 95 % quantile of these waits is {seconds:g} s or more, or a "
+    "share of the messages above {never:g} never gets the transform; and a share above "
+    "{some:g} has to wait. A note for other messages, and if a share above {refused:g} has to "
+    "wait and the quantile is {note:g} s or more. The topic has at least {messages:g} "
+    "messages. Not reported for markers, odometry, paths, maps, and messages of an IMU, a "
+    "compass or a satellite receiver",
     headline="{topics} {topics:arrives|arrive} before the transforms {topics:it needs|they need}",
     detail="{refused:%} refused at arrival (in {fixed}); wait {p50:span} (median), {p95:span} "
     "(95 %), {worst:span} (worst); {never:%} never served; held up by {link}, which comes every "
@@ -481,8 +484,8 @@ def _is_robot(link: Track) -> bool:
 @check(
     "cache-short",
     Severity.WARNING,
-    rule="95 % of a topic's messages arrive later than the cache time (10 s; --cache-time); a note "
-    "for messages other than scans, point clouds and ranges",
+    rule="95 % of a topic's messages are older than the cache time (10 s, or --cache-time) when "
+    "they arrive. A note for messages other than scans, point clouds and ranges",
     headline="{topic} arrives later than the cache keeps its moment",
     detail="{topic}: {late:span} after its stamp (median), {worst:span} at most; the buffer "
     "keeps {cache:span}",
@@ -528,9 +531,9 @@ def cache_short(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "late-start",
     Severity.NOTE,
-    rule="messages are older than the first transform they need by more than {seconds:g} s, "
-    "and arrive after the first second of the recording; if a localiser stamps that "
-    "transform ahead by up to 2 s, the limit grows by as much. A warning if this is true of all "
+    rule="messages are older than the first transform that they need by more than {seconds:g} s, "
+    "and arrive after the first second of the recording. If a localiser stamps that transform "
+    "ahead by up to 2 s, the limit grows by the same time. A warning if this is true of all "
     "scans, point clouds or ranges of a topic",
     headline="{where} {concerned:begins|begin} later than messages that need {concerned:it|them}",
     detail="{edge} begins at {begin:moment}: {messages} of {topic} can never be placed "
@@ -545,8 +548,8 @@ def cache_short(model: Model, limits: Limits) -> Iterator[Hit]:
         "log times",
         "headers",
     ),
-    why="every recording needs its first second to start, and a localiser that stamps ahead"
-    " always loses that time",
+    why="every recording needs its first second to start, and a localiser that stamps ahead "
+    "always loses that time",
     because_of=(
         ("stream", "clock-mixture frozen-stamp"),
         ("edge", "wild-stamp clock-offset"),

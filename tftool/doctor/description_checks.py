@@ -22,8 +22,8 @@ _STATES = "look who publishes joint states: `{publishers} /joint_states`"
 @check(
     "urdf-invalid",
     Severity.ERROR,
-    rule="it is no XML, has no root or several, a joint names a missing link, joints form a "
-    "loop, or a name is used twice",
+    rule="the description is not XML, has no root or several roots, a joint names a missing link, "
+    "joints form a loop, or a name is used twice",
     headline="the robot description cannot be read",
     detail="{mistakes}",
     consequence="robot_state_publisher refuses it or publishes a part; nothing is compared with it",
@@ -44,8 +44,9 @@ def urdf_invalid(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "joint-without-state",
     Severity.ERROR,
-    rule="a movable joint that follows no other is in no JointState of the recording, and no"
-    " transform has its link. A warning without a scan, a point cloud or a range below it",
+    rule="a movable joint that mimics no other joint is in no JointState message of the recording, "
+    "and its link is in no transform. A warning if no scan, point cloud or range is in a "
+    "frame below the joint",
     headline="{joint} has no state: {child} has no frame",
     detail="{joint} ({kind}) moves {below}",
     consequence="robot_state_publisher publishes nothing below such a joint",
@@ -114,8 +115,8 @@ def links_below(robot: Robot, joint: RobotJoint) -> list[str]:
 @check(
     "urdf-frame-unpublished",
     Severity.WARNING,
-    rule="a link of the robot description is in no transform of the whole recording; a note if no "
-    "message is in it",
+    rule="a link of the robot description is in no transform of the whole recording. A note if no "
+    "message is in the frame of the link",
     headline="{where} of the robot description: in no transform",
     detail="{frame}: {reason}",
     consequence="nothing can be placed in these frames",

@@ -39,12 +39,13 @@ def holes(track: Track, limits: Limits) -> list[tuple[int, int]]:
 @check(
     "edge-stopped",
     Severity.ERROR,
-    rule="the last sample arrives more than {periods:g} periods and {seconds:g} s, and a "
-    "share of {share:g}, before the recording's end, while other streams continue; of "
-    "{samples:g} samples or more, except detections of a camera that have no children. A warning "
-    "if all moving transforms end (a note if a player's data was over, without /clock), or if a "
-    "recording has no later scan, point cloud or range in the frame or below it; then a note for a "
-    "frame without children, or a part of a robot unless it moved and has been silent for 60 s",
+    rule="the last sample of a transform arrives more than {periods:g} periods, {seconds:g} s and "
+    "a share of {share:g} of the recording before its end, while other streams continue. The "
+    "transform has {samples:g} samples or more, and is not a detection of a camera without "
+    "child frames. A warning if all moving transforms end; a note if they end with a player's "
+    "data, without /clock. A warning if the recording has no later scan, point cloud or "
+    "range in the frame or below it. In this case, a note for a frame without children, and "
+    "for a part of a robot that did not move or has been silent for less than 60 s",
     headline="{where} {concerned:stops|stop} before the end",
     detail="{edge}: last at {last:moment}, {before:span} before the end; came every {period:span}",
     consequence="lookups through it refuse from then on",
@@ -164,11 +165,12 @@ def is_detection(model: Model, track: Track) -> bool:
 @check(
     "gap",
     Severity.WARNING,
-    rule="the largest step is above {periods:g} periods and {seconds:g} s, of {samples:g} "
-    "samples or more; a note for transforms that are published on change (variation "
-    "above {variation:g}), for a gap below {note:g} s, and if no scan, point cloud or range in the "
-    "frame or below it has a stamp in the gap, unless the transform places a robot in the world. "
-    "Of such a transform, {times:g} gaps of {again:g} s and {missed:g} periods or more",
+    rule="the largest step between two samples is above {periods:g} periods and {seconds:g} s, "
+    "among {samples:g} samples or more. A note for transforms that are published on change "
+    "(variation above {variation:g}), and for a gap below {note:g} s. A note also if no scan, "
+    "point cloud or range in the frame or below it has a stamp in the gap, unless the "
+    "transform places a robot in the world. A transform that places a robot in the world is "
+    "also reported for {times:g} gaps of {again:g} s and {missed:g} periods or more",
     headline="{where} {concerned:has a gap|have gaps}{often}",
     detail="{edge}: nothing from {begin:moment} to {end:moment} ({length:span}; usually every "
     "{period:span}){why}{beside}",
@@ -326,8 +328,9 @@ def _is_silent(stream: Track | Heard, begin: int, end: int) -> bool:
 @check(
     "coarse-odometry",
     Severity.NOTE,
-    rule="the robot turns by more than {degrees:g}° between two samples of its odometry, of "
-    "{samples:g} samples or more, and scans or point clouds come {times:g} times as often",
+    rule="the robot turns by more than {degrees:g}° between two samples of its odometry, among "
+    "{samples:g} samples or more. Scans or point clouds come {times:g} times as often as the "
+    "odometry",
     headline="{where} {concerned:turns|turn} by up to {turn:deg} between two samples",
     detail="{edge}: {count:times} by more than {least:deg}; {hz:.3g} Hz, {topic} {often:.3g} Hz",
     consequence="a lookup interpolates between two samples, and misses the motion between them",
@@ -368,13 +371,14 @@ def coarse_odometry(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "single-sample",
     Severity.WARNING,
-    rule="a transform on a dynamic topic was sent once; a note if the recording holds nothing "
-    "else, or for a frame in map, odom or world if no message with a position is in it or below it",
+    rule="a transform on a topic for moving transforms was sent once. A note if the recording "
+    "contains no other data. A note also for a frame in map, odom or world if no message with "
+    "a position is in this frame or below it",
     headline="{where} {concerned:was|were} sent once, on /tf",
     detail="{edge}: at {stamp:moment}{beside}",
     consequence="one sample answers only for its own stamp, and only while the cache keeps it",
     causes=("a mount sent with a TransformBroadcaster",),
-    why="tf2 interpolates between two samples and never extrapolates from one",
+    why="tf2 interpolates between two samples, and never extrapolates from a single sample",
     because_of=(
         ("child", "static-and-dynamic"),
         ("edge", "zero-stamp"),
@@ -419,7 +423,7 @@ _OFTEN = 50
 @check(
     "no-transforms",
     Severity.ERROR,
-    rule="no topic carries a transform; a warning if no message has a position either",
+    rule="no topic carries a transform. A warning if no message has a position either",
     headline="there are no transforms",
     consequence="nothing can be placed in another frame",
     fixes=(Fix("look whether the robot sends any: `{publishers} /tf`; if so, record it"),),

@@ -27,9 +27,10 @@ check = checks_of(Area.NAMES)
     Severity.ERROR,
     rule="the frame of a message with a position is in no transform of the whole recording. A "
     "warning if none of the messages is a scan, a point cloud or a range, which costmaps and "
-    "maps have to place, or if tf has no base frame; a note if none comes from a sensor, or if "
-    "nothing but the frame of a localiser or of the earth is unknown, or if the messages are raw "
-    "input of a localiser: one node sends other messages in the frame, too, and tf has no robot",
+    "maps have to place, or if tf has no base frame. A note if none of the messages comes "
+    "from a sensor, or if only the frame of a localiser or of the earth is unknown. A note "
+    "also if the messages are raw input of a localiser: tf has no robot, and their node also "
+    "sends other messages in the frame",
     headline="no transform names {named}",
     detail="{frame}: {says}{hint}",
     consequence="none of these messages can be placed anywhere",
@@ -41,7 +42,7 @@ check = checks_of(Area.NAMES)
     ),
     links=threads("Ekumen-OS/andino_gz#43", "ros2/ros2_documentation#5222", "osrf/vrx#876"),
     needs=("headers",),
-    why="such lookups fail at every time",
+    why="lookups of a frame that is in no transform fail at every time",
     because_of=(("frame", "static-missing slash-twins namespace-twins case-twins typo-twins"),),
 )
 def unknown_frame(model: Model, limits: Limits) -> Iterator[Hit]:
@@ -207,8 +208,9 @@ def _renames(model: Model, name: str, alike: list[str], heards: list[Heard]) -> 
 @check(
     "slash-twins",
     Severity.ERROR,
-    rule="a frame in a header begins with a slash, and tf knows the name without it. In ROS 1 a "
-    "warning, as its tf strips the slash; a note if the transforms have the slash too",
+    rule="the frame in a header begins with a slash, and a transform has the same name without the "
+    "slash. A warning in ROS 1, whose tf strips the slash. A note if the transforms have the "
+    "slash too",
     headline="{topic} {aged}names {frame}, {tf}",
     detail="{topic}: {frame}, {count:times}{outside}",
     consequence="every direct tf2 lookup refuses (message filters and tf 1 strip the slash): "

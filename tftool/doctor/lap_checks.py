@@ -15,7 +15,8 @@ check = checks_of(Area.CLOCKS)
 @check(
     "time-jump-back",
     Severity.ERROR,
-    rule="within 1 s, at least two streams and half of all step back by more than 1 s",
+    rule="within 1 s, at least two streams and at least half of all streams step back by more than "
+    "1 s",
     headline="time went back by {steps}, {count:times}{loop}",
     detail="at log time {moment:moment}: from {before:moment} to {after:moment}, {streams} "
     "streams; all that follows is about what came before",

@@ -22,9 +22,9 @@ _MEASURE = Fix(
 @check(
     "mount-contradicts-motion",
     Severity.WARNING,
-    rule="with --mounts: two chains move one body, and a published or described mount "
-    "differs from the one that their motion gives by more than {metres:g} m or "
-    "{degrees:g}°, and by more than {widths:g} times the half-width of the 95 % "
+    rule="with --mounts: two chains of transforms move one body, and a published or described "
+    "mount differs from the mount that their motion gives. The difference is more than "
+    "{metres:g} m or {degrees:g}°, and more than {widths:g} times the half-width of the 95 % "
     "interval, along an axis that the motion determines",
     headline="the mount of {child} on {parent} contradicts its motion",
     detail="{apart}",
@@ -49,9 +49,10 @@ def mount_contradicts_motion(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "mount-changed",
     Severity.WARNING,
-    rule="with --mounts: the mount that the motion gives differs between two parts of a recording "
-    "or from the recording named before, by more than {metres:g} m or {degrees:g}° and by more "
-    "than {widths:g} times the half-width of the 95 % interval of the difference",
+    rule="with --mounts: the mount that the motion gives differs between two parts of a recording, "
+    "or between the recording and the one named before it on the command line. The "
+    "difference is more than {metres:g} m or {degrees:g}°, and more than {widths:g} times the "
+    "half-width of its 95 % interval",
     headline="{child} moved on {parent}{when}",
     detail="{apart}",
     consequence="one mount cannot be right before and after: a map or a taught pose from before "

@@ -27,8 +27,8 @@ MOST_COMPARED = 300_000
 @check(
     "leading-slash",
     Severity.NOTE,
-    rule="a transform names a frame with a leading slash, which tf2 removes; an error for "
-    "two slashes, since no query can name the rest",
+    rule="a transform names a frame with a leading slash, which tf2 removes. An error for two "
+    "leading slashes, because no lookup can name the frame that remains",
     headline="{where} {concerned:is|are} published with a leading slash",
     detail="{edge}: {found}",
     consequence="harmless to tf2; tools that compare names see two frames",
@@ -80,9 +80,10 @@ def case_twins(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "typo-twins",
     Severity.WARNING,
-    rule="two names of {shortest:g} letters or more, not in one tree, differ by one letter "
-    "(from {long:g} letters on: by two), and one is unknown to tf or the root of a "
-    "smaller tree; except numbers, and pairs like left and right",
+    rule="two names of {shortest:g} letters or more, which are not in one tree, differ by one "
+    "letter (names of {long:g} letters or more: by two letters). One of the two is in no "
+    "transform, or is the root of a smaller tree. Not reported for names that differ in a "
+    "number, or in a pair of words such as left and right",
     headline="{first} and {second} look like two spellings of one name",
     detail="{users}",
     consequence="they are two frames: things placed in one are not in the other",
@@ -186,7 +187,7 @@ def _shared(one: str, other: str) -> int:
 @check(
     "namespace-twins",
     Severity.WARNING,
-    rule="a name exists with and without a prefix, in different trees",
+    rule="a frame name exists with and without a prefix, in different trees",
     headline="{first} and {bare} look like one frame: some names have the prefix {prefix}",
     detail="{twins}",
     consequence="the frames with the prefix and those without are two trees",
@@ -302,8 +303,8 @@ def wrong_type(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "awkward-name",
     Severity.NOTE,
-    rule="a name has blanks at its ends, invisible characters, a ~, more than {letters:g} "
-    "letters, or is a number or word of YAML 1.1",
+    rule="a name has blanks at its ends, invisible characters, a ~, or more than {letters:g} "
+    "letters, or YAML 1.1 reads the name as a number or another value",
     headline="{where}: {concerned:a name|names} that many tools misread",
     detail="{frame} {reason}",
     consequence="tools that print or parse the name show or read another one",

@@ -18,11 +18,11 @@ check = checks_of(Area.VALUES)
 @check(
     "odometry-tf-mismatch",
     Severity.NOTE,
-    rule="an Odometry message and the transform of the same two frames and the same stamp "
-    "differ by more than {metres:g} m or {degrees:g}°, in a share above {share:g} of "
-    "such pairs, or tf has no transform of these frames. A warning if "
-    "positions within {near:g} s, of any source, differ by more than {far:g} m and more than the "
-    "robot moved",
+    rule="an Odometry message and the transform with the same two frames and the same stamp differ "
+    "by more than {metres:g} m or {degrees:g}°, in a share above {share:g} of such pairs; or "
+    "tf has no transform between these frames. A warning if a position in the message and "
+    "one in tf, from any publisher and within {near:g} s, differ by more than {far:g} m and "
+    "by more than the robot moved",
     headline="{topic} {differs} {edge}",
     detail="{found}",
     consequence="programs that use the message and programs that use tf may see the robot in "
@@ -196,8 +196,8 @@ def _far_apart(track: Track, told: Track, topic: str, limits: Limits) -> Hit | N
 @check(
     "negative-variance",
     Severity.WARNING,
-    rule="a variance of the position or rotation in an Odometry message is negative, and not -1, "
-    "which some drivers send for an unknown one",
+    rule="a variance of the position or rotation in an Odometry message is negative. Not reported "
+    "for -1, which some drivers send if the variance is unknown",
     headline="{where} {concerned:has|have} negative variances",
     detail="{topic}: {count} of {of} messages, {least:.3g} at least",
     consequence="no variance is negative: a filter that uses these messages may diverge",
@@ -214,9 +214,9 @@ def negative_variance(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "repeated-pose",
     Severity.NOTE,
-    rule="a share of {share:g} or more of a robot's odometry repeats the pose before it while the "
-    "robot moves, with new stamps; {samples:g} changes or more. A warning if the changes are "
-    "{metres:g} m or {degrees:g}° (median)",
+    rule="while the robot moves, a share of {share:g} or more of the samples of its odometry "
+    "repeats the previous pose with a new stamp, among {samples:g} changes of the pose or "
+    "more. A warning if the median change is {metres:g} m or {degrees:g}° or more",
     headline="{where} {concerned:moves|move} in steps: while the robot moves, {repeated:%} of the "
     "samples repeat the pose before",
     detail="{edge}: a sample every {period:span}, a new pose every {every:span}, {jump:m} and "
@@ -264,8 +264,9 @@ _STANDS = 8
 @check(
     "odometry-cancelled",
     Severity.WARNING,
-    rule="a robot gets more than {metres:g} m away in its odometry, and a localiser that changes "
-    "map to odom keeps the robot within {share:g} of that in the map (90 % of the time)",
+    rule="in the odometry, a robot moves more than {metres:g} m away from its median position. In "
+    "the map, a localiser that changes map to odom keeps the robot within a share of "
+    "{share:g} of this distance, for 90 % of the time",
     headline="{child} stays within {stays:m} in {map}, although it goes {drives:m} in {odom}",
     detail="{edge}: it changes against the odometry; {child} is that close to its "
     "median position for 90 % of the time",

@@ -17,10 +17,11 @@ check = checks_of(Area.COVERAGE)
 @check(
     "outage",
     Severity.WARNING,
-    rule="nothing arrives for more than {seconds:g} s and {periods:g} periods on half or more of "
-    "the streams that come at {hz:g} Hz or more, a topic of messages and a transform among them, "
-    "and they go on afterwards, with a gap in their stamps or with data that was held up; or "
-    "nothing at all arrives for {again:g} s, {times:g} times, and /clock then comes in a burst",
+    rule="on half or more of the streams with {hz:g} Hz or more, nothing arrives for more than "
+    "{seconds:g} s and {periods:g} periods. A topic of messages and a transform are among "
+    "these streams. Afterwards the streams go on, with a gap in their stamps or with delayed "
+    "data. Or no message at all arrives for {again:g} s, {times:g} times, and messages on "
+    "/clock then arrive in a burst",
     headline="nothing arrived for {length:span} on {streams} of {of} streams{often}",
     detail="from {begin:moment} to {end:moment} (log times): {names}; {lost}",
     consequence="whatever was stamped then came late, in a burst, or never",
@@ -150,8 +151,8 @@ def _is_hole(stream: Track | Heard, begin: int, end: int, least: float) -> bool:
     "stall",
     Severity.NOTE,
     rule="a regular transform or Odometry topic pauses for {seconds:g} s and {periods:g} periods "
-    "or more, and its next message is older than usual by half of the pause; of {samples:g} "
-    "samples or more",
+    "or more, among {samples:g} samples or more. The next message is then older than usual by "
+    "at least half of the pause",
     headline="{where} {concerned:stalls|stall} for {length:span}",
     detail="{what}: {stalls:times}, the longest from {begin:moment} on (log time); usually every "
     "{period:span}",

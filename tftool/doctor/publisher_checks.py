@@ -29,8 +29,8 @@ check = checks_of(Area.PUBLISHERS)
 @check(
     "two-parents",
     Severity.ERROR,
-    rule="a frame has two parents among the statics, or changes its parent more than "
-    "{switches:g} times and keeps each for less than {stay:g} s on average. A warning if both "
+    rule="a frame has two parents among the statics, or changes its parent more than {switches:g} "
+    "times and keeps each parent for less than {stay:g} s on average. A warning if both "
     "parents are below one root",
     headline="{child} changes between the parents {parents}",
     detail="{sources}; changes {switches:times}, first at {first:moment}",
@@ -48,8 +48,8 @@ check = checks_of(Area.PUBLISHERS)
         "introlab/rtabmap_ros#822",
     ),
     limits={"switches": 4, "stay": 1.0},
-    why="a hand-over changes the parent once; two competing publishers change it at the "
-    "rate of messages",
+    why="a hand-over changes the parent once; two competing publishers change the parent at the "
+    "rate of their messages",
 )
 def two_parents(model: Model, limits: Limits) -> Iterator[Hit]:
     """A frame changes between two parents."""
@@ -90,19 +90,18 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
 @check(
     "publisher-conflict",
     Severity.ERROR,
-    rule="two publishers with at least {least:g} samples each overlap in time and differ by "
-    "more than {metres:g} m (or {degrees:g}°) and by more than one step. Where "
-    "publishers are unknown: {stamps:g} stamps or more have two values that differ so "
-    "much and one of the two interrupts the motion of "
-    "the other, or the samples alternate between two tracks "
-    "(a sample belongs to a track within {reach:g} m + {speed:g} m/s, a radian counting"
-    " as half a metre). Each track needs {samples:g} samples and a share of {share:g}, "
-    "the track must change {changes:g} times or more, and motion at constant velocity "
-    "must explain all samples {worse:g} times worse than each track alone. A note for a frame "
-    "that only turns, unless one value comes again and again. A warning if the "
-    "publishers are unknown, if "
-    "nothing is below the frame and no message is in it, or for a mount with two values "
-    "less than {slight:g} m and {slight_degrees:g}° apart",
+    rule="two publishers with at least {least:g} samples each send a transform at the same time, "
+    "and their values differ by more than {metres:g} m (or {degrees:g}°) and by more than one "
+    "step. If the publishers are unknown, one of two patterns counts. First, {stamps:g} "
+    "stamps or more have two values that differ so much, and one of the values interrupts the "
+    "motion of the other. Second, the samples alternate between two tracks; a sample belongs "
+    "to a track within {reach:g} m + {speed:g} m/s, where a radian counts as half a metre. "
+    "Each track needs {samples:g} samples and a share of {share:g}, the track must change "
+    "{changes:g} times or more, and motion at constant velocity must explain all samples "
+    "{worse:g} times worse than each track alone. A note for a frame that only turns, unless "
+    "one value returns again and again. A warning if the publishers are unknown, if no frame "
+    "is below this frame and no message is in it, or for a mount whose two values differ by "
+    "less than {slight:g} m and {slight_degrees:g}°",
     headline="{named} {many:has|have} two sources with different values{seen}",
     detail="{edge}: {first} and {second}, {told}, {apart:m} and {turned:deg} apart (median), "
     "{worst:m} and {most_turned:deg} at most",
@@ -135,8 +134,8 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
         "slight_degrees": 2.0,
     },
     why="a moving frame continues from its last pose, while the values of two publishers "
-    "alternate; the speed limit separates these from fast robots and relocalisations; a"
-    " fast wheel turns by a large but constant angle between two samples",
+    "alternate. The speed limit separates two publishers from fast robots and "
+    "relocalisations. A fast wheel turns by a large but constant angle between two samples",
 )
 def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
     """Two sources publish the same transform with different values."""
@@ -214,8 +213,8 @@ def _has_one_source(model: Model) -> bool:
 @check(
     "static-and-dynamic",
     Severity.ERROR,
-    rule="a frame is the child of a transform on a static and of one on a dynamic topic. A "
-    "warning if the parent is the same and the kind changes once",
+    rule="a frame is the child of a static transform and of a moving transform. A warning if both "
+    "transforms have the same parent and the kind changes once",
     headline="{child} is sent on /tf and on /tf_static",
     detail="moving: {moving}; static: {static}; the kind changes {turns:times}, at most "
     "{history:span} of history are kept",
@@ -276,7 +275,7 @@ def static_and_dynamic(model: Model, limits: Limits) -> Iterator[Hit]:
     fixes=(Fix("find its publisher: `{publishers} /tf_static`"),),
     causes=("a calibration or a detector publishes its result with a static broadcaster",),
     limits={"values": 4, "metres": 1e-6, "radians": 1e-4},
-    why="a recalibration happens once or twice",
+    why="a recalibration changes the value of a static once or twice",
 )
 def dynamic_on_static(model: Model, limits: Limits) -> Iterator[Hit]:
     """A moving frame is published as static."""
@@ -359,11 +358,10 @@ def _same(track: Track, one: int, other: int, limits: Limits) -> bool:
 @check(
     "static-on-tf",
     Severity.NOTE,
-    rule="{samples:g} samples or more on a dynamic topic, over {seconds:g} s or more, are "
-    "all equal while the parent frame moves. Not reported if joint states, the robot "
-    "description, odometry, another edge of the same messages, a moving frame of "
-    "similar name, or a mount on it among the robot's fixed joints show that it could "
-    "move",
+    rule="{samples:g} samples or more of a moving transform, over {seconds:g} s or more, are all "
+    "equal while the parent frame moves. Not reported if joint states, the robot description, "
+    "odometry, another transform of the same messages, a moving frame of similar name, or a "
+    "fixed joint of the robot below the frame shows that the frame can move",
     headline="{where} never {concerned:changes and is|change and are} sent on /tf",
     detail="{edge}: {rate:.3g} Hz, for {lasts:span}",
     consequence="if it is a mount, lookups wait for its next sample, unless it is dated ahead",
@@ -371,8 +369,9 @@ def _same(track: Track, one: int, other: int, limits: Limits) -> bool:
     links=threads("orbbec/ros_astra_camera#89"),
     limits={"samples": 20, "seconds": 60.0},
     needs=("recording",),
-    why="a static sent at 10 Hz makes every lookup wait for up to 100 ms, unless it is "
-    "dated ahead; a joint at rest looks the same, and a short recording cannot distinguish them",
+    why="a constant sent at 10 Hz on /tf makes every lookup wait for up to 100 ms, unless its "
+    "stamps are ahead. A joint at rest looks like a constant, and a short recording cannot "
+    "distinguish the two",
     because_of=(("child", "static-and-dynamic"),),
 )
 def static_on_tf(model: Model, limits: Limits) -> Iterator[Hit]:
@@ -520,8 +519,8 @@ def _source(track: Track) -> str:
 @check(
     "empty-message",
     Severity.NOTE,
-    rule="a publisher sends {times:g} messages or more without a transform, a share of {share:g} "
-    "or more of its messages",
+    rule="a publisher sends {times:g} messages or more without a transform, which are a share of "
+    "{share:g} or more of its messages",
     headline="{topic} has {empty} messages without a transform",
     detail="{topic}: {empty} of {of} messages{sender}",
     consequence="frames that its publisher does not see are not updated meanwhile",

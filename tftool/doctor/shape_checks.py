@@ -108,9 +108,9 @@ def _circling(links: set[tuple[str, str]]) -> set[tuple[str, str]]:
     "split-tree",
     Severity.ERROR,
     rule="there is more than one root. An error if scans, point clouds or ranges are in a frame of "
-    "a smaller tree, beside a tree with a base frame; a note if each tree is a whole robot, if no "
-    "message is in one of two trees that hold one frame in two conventions (odom, odom_ned), or in "
-    "a recording of less than {seconds:g} s",
+    "a smaller tree, beside a tree with a base frame. A note if each tree is a whole robot, "
+    "if two trees contain one frame in two conventions (odom, odom_ned) and no message is in "
+    "one of these trees, or if the recording is shorter than {seconds:g} s",
     headline="{named} {many:is|are} not joined to the tree of {main_root}",
     detail="tree {number}: {frames}{users}{evidence}",
     consequence="nothing in it can be placed in {main_root}, and nothing of {main_root} in it",
@@ -215,7 +215,7 @@ def _messages_in(model: Model, tree: Tree) -> dict[str, int]:
 @check(
     "self-transform",
     Severity.WARNING,
-    rule="parent and child of a transform are the same name",
+    rule="parent and child of a transform have the same name",
     headline="{where}: a frame is its own parent",
     detail="{frame}: {count:times}",
     consequence="tf2 drops it, and prints an error for each",
@@ -243,9 +243,9 @@ def self_transform(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "empty-frame",
     Severity.ERROR,
-    rule="a name is empty: an error in a transform, a warning in the header of a message "
-    "with a position, a note in a transform on a topic of its own, which tf2 does not read, and "
-    "in messages without a stamp",
+    rule="the name of a frame is empty. An error in a transform, a warning in the header of a "
+    "message with a position. A note in a transform on a topic that tf2 does not read, and in "
+    "messages without a stamp",
     headline="no frame name in {named}",
     detail="{what}: {detail}, {count:times}",
     consequence="{so}",

@@ -49,9 +49,9 @@ def zero_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "frozen-stamp",
     Severity.WARNING,
-    rule="one stamp is sent {times:g} times or more, while the clock of the stamps goes on by "
-    "more than {seconds:g} s; messages only if a moving transform places them. A note for messages "
-    "that are not a sensor's",
+    rule="one stamp is sent {times:g} times or more, while the newest stamp of all streams "
+    "advances by more than {seconds:g} s. Messages are only reported if a moving transform "
+    "places them. A note for messages that are not from a sensor",
     headline="{where} {concerned:repeats|repeat} one stamp",
     detail="{what}: {stamp:moment} {count:times}, for {lasted:span}",
     consequence="{so}",
@@ -61,7 +61,7 @@ def zero_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     ),
     limits={"times": 10, "seconds": 1.0},
     needs=("log times",),
-    why="while a slow simulation's clock stands still, stamps repeat as they should",
+    why="repeated stamps are correct while the clock of a slow simulation does not advance",
     because_of=(("edge", "zero-stamp"),),
 )
 def frozen_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
@@ -138,10 +138,11 @@ _FROZEN = {"times": 10, "seconds": 1.0}
 @check(
     "repeated-stamp",
     Severity.WARNING,
-    rule="more than {samples:g} samples, and a share above {share:g}, repeat a stamp with "
-    "another value, by {metres:g} m or {radians:g} rad; in noetic, which prints a warning for "
-    "each, with any value. A note if all values are equal in a share below {flood:g}. In ROS 2 no "
-    "transform from map to odometry is reported",
+    rule="more than {samples:g} samples of a transform, and a share above {share:g}, repeat a "
+    "stamp with a value that differs by {metres:g} m or {radians:g} rad. In ROS 1 noetic, "
+    "whose tf2 prints a warning for each repeated stamp, any value counts. A note if all "
+    "values are equal and the share is below {flood:g}. In ROS 2, transforms from map to "
+    "odometry are not reported",
     headline="{where} {concerned:repeats|repeat} stamps",
     detail="{edge}: {count} of {of} samples repeat a stamp, {different} of them with another value"
     "{by}",
@@ -210,10 +211,10 @@ def repeated_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "sent-twice",
     Severity.WARNING,
-    rule="the messages of a sensor or of odometry have {share:g} times as many stamps as they have "
-    "different stamps, or more, of {samples:g} messages or more in one frame; or a transform "
-    "has one stamp and value three times or more at once. A note for messages other than laser "
-    "scans, whose stamps may be those of a simulator's step or of a slower source",
+    rule="a sensor or odometry sends {samples:g} messages or more in one frame, and {share:g} "
+    "times as many messages as different stamps, or more. Or a transform is sent three times "
+    "or more at once, with one stamp and value. A note for messages other than laser scans, "
+    "because their stamps may be those of a simulator's step or of a slower source",
     headline="{where} {concerned:sends|send} each message several times",
     detail="{topic}: {count} messages have {different} different stamps",
     consequence="programs that use the topic do the work of each message again",
@@ -267,8 +268,8 @@ _NOETIC = seconds(1_590_000_000)
 @check(
     "old-data",
     Severity.WARNING,
-    rule="a sample is older than the newest of its frame by more than the cache (--cache-time). A "
-    "note in a share below {share:g}",
+    rule="a sample is older than the newest sample of its frame by more than the cache time "
+    "(--cache-time). A note if the share of such samples is below {share:g}",
     headline="{where} {concerned:sends|send} samples that are too old to be kept",
     detail="{edge}: {count:times}, up to {behind:span} behind",
     consequence="tf2 drops them and warns TF_OLD_DATA",
@@ -336,8 +337,8 @@ def _newest_before(tracks: list[Track]) -> tuple[Stamps, Stamps]:
 @check(
     "out-of-order",
     Severity.NOTE,
-    rule="more than {samples:g} samples, and a share above {share:g}, are older than an "
-    "earlier one",
+    rule="more than {samples:g} samples of a transform, and a share above {share:g}, are older "
+    "than a sample that arrived earlier",
     headline="{where} {concerned:arrives|arrive} out of order",
     detail="{edge}: {count} of {of} samples",
     consequence="harmless to tf2; a sign of threads, a second publisher, a lossy network, or a "
@@ -366,10 +367,11 @@ def out_of_order(model: Model, limits: Limits) -> Iterator[Hit]:
     "stale-stamp",
     Severity.NOTE,
     rule="the median latency is above {transforms:g} s for a transform or {messages:g} s for "
-    "messages. A warning if another topic shows where the delay arises: one with the same stamps, "
-    "or one from which the late topic is made, arrives in time, or Odometry brings the poses of a "
-    "transform in time whose latency is above {odometry:g} s; or if one sample in ten of a moving "
-    "transform is later than {tenth:g} s and {often:g} times the median, and other data is in time",
+    "messages. A warning if another topic shows where the delay arises: a topic with the same "
+    "stamps, or the topic from which the late topic is computed, arrives in time. A warning "
+    "also for a transform with a latency above {odometry:g} s whose poses arrive in time in "
+    "Odometry messages. A warning also if one sample in ten of a moving transform is later "
+    "than {tenth:g} s and {often:g} times the median, while other data arrives in time",
     headline="{where} {concerned:is|are} dated {upto}{late:span} before {concerned:its|their} "
     "arrival",
     detail="{what}: {late:span} late ({of}){varies}",

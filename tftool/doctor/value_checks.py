@@ -29,8 +29,8 @@ _PICTURES = ("sensor_msgs/Image", "sensor_msgs/CameraInfo", "sensor_msgs/Compres
 @check(
     "nan-transform",
     Severity.ERROR,
-    rule="a number of a transform is NaN or infinite; a warning in a share below {share:g} of a "
-    "moving one",
+    rule="a number of a transform is NaN or infinite. A warning if the share of such samples of a "
+    "moving transform is below {share:g}",
     limits={"share": 0.01},
     headline="{where} {concerned:has|have} numbers that are none",
     detail="{edge}: {count} of {of} samples, first at {first:moment}: {numbers}; {fate}",
@@ -70,8 +70,8 @@ def nan_transform(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "bad-quaternion",
     Severity.ERROR,
-    rule="a quaternion's squared length is below 10⁻¹² (an error), or differs from 1 by more"
-    " than {length:g} (a warning)",
+    rule="a quaternion's squared length is below 10⁻¹² (an error), or differs from 1 by more "
+    "than {length:g} (a warning)",
     headline="{where} {concerned:has a rotation of|have rotations of a wrong} length{concerned:|,} "
     "{concerned:|such as }{length:.4g} instead of 1",
     detail="{edge}: {count} of {of} samples, first {numbers} (length {length:.4g}); {fate}",
@@ -86,8 +86,8 @@ def nan_transform(model: Model, limits: Limits) -> Iterator[Hit]:
         "robomechanics/quad-sdk#346", "introlab/rtabmap_ros#153", "CCNYRoboticsLab/imu_tools#67"
     ),
     limits={"length": 0.01},
-    why="ROS 1 drops such a transform and ROS 2 normalises it: the frame exists in one and "
-    "not in the other",
+    why="ROS 1 drops a transform with such a rotation, and ROS 2 normalises the rotation: the "
+    "frame exists only in ROS 2",
 )
 def bad_quaternion(model: Model, limits: Limits) -> Iterator[Hit]:
     """A rotation has length zero, or a wrong length."""
@@ -147,13 +147,13 @@ def _fate(model: Model, track: Track, place: int, severity: Severity) -> tuple[s
 @check(
     "teleport",
     Severity.WARNING,
-    rule="a step above {metres:g} m at more than {speed:g} m/s (or above {radians:g} rad at "
-    "more than {turning:g} rad/s) and at {times:g} times the 95 % quantile of the "
-    "speed, in a share of at most {share:g} of the steps ({triggered:g} if each comes within 50 ms "
-    "after a position message) or {few:g} of them; of "
-    "{samples:g} samples or more of one publisher. A note for a part of a robot that no sensor "
-    "message is in. Of a localiser, {corrections:g} steps or more that move the robot by "
-    "{corrected:g} m, without an initial pose. Of an object that a camera detects, "
+    rule="a step is above {metres:g} m at more than {speed:g} m/s (or above {radians:g} rad at "
+    "more than {turning:g} rad/s), and its speed is {times:g} times the 95 % quantile. Such "
+    "steps are at most a share of {share:g} of all steps ({triggered:g} if each step comes "
+    "within 50 ms after a position message) or at most {few:g} steps, among {samples:g} "
+    "samples or more of one publisher. A note for a part of a robot if no sensor message is "
+    "in its frame. For a localiser: {corrections:g} steps or more that move the robot by "
+    "{corrected:g} m, without an initial pose. For an object that a camera detects: "
     "{corrections:g} steps or more of {detected:g} m and 2 m/s within 1 s",
     headline="{named}",
     detail="{edge}: {jump:m} and {turn:deg} at {at:moment}, {count:times}{others}{usual}{after}",
@@ -183,7 +183,8 @@ def _fate(model: Model, track: Track, place: int, severity: Severity) -> tuple[s
         "corrected": 0.5,
         "detected": 1.0,
     },
-    why="steady motion has a usual speed; more jumps than that are noise, or two publishers",
+    why="steady motion has a usual speed, which a jump exceeds. More jumps than the rule allows "
+    "are noise, or come from two publishers",
     because_of=(
         ("anything", "time-jump-back"),
         ("mixed", "publisher-conflict two-parents"),
@@ -426,9 +427,9 @@ def _jumps(
 @check(
     "optical-convention",
     Severity.WARNING,
-    rule="the rotation of an optical frame in its body frame is more than {degrees:g}° off "
-    "optical axes (z forward, x right), if both share a name or are within {metres:g} m. A note if "
-    "no message of a sensor is in the optical frame",
+    rule="the rotation of an optical frame in its body frame differs by more than {degrees:g}° "
+    "from optical axes (z forward, x right). The two frames share a name, or are within "
+    "{metres:g} m. A note if no message of a sensor is in the optical frame",
     headline="{where} {concerned:does|do} not have optical axes",
     detail="{edge}: {off:.3g}° off",
     consequence="images and clouds in it are rotated, if the name is right",
@@ -438,7 +439,8 @@ def _jumps(
         *threads("ros-simulation/gazebo_ros_pkgs#1329"),
     ),
     limits={"degrees": 30.0, "metres": 0.1},
-    why="calibrated cameras are off by up to 5°, and a tilt may be in the same transform",
+    why="calibrated cameras differ from optical axes by up to 5°, and the transform may include a "
+    "tilt of the camera",
 )
 def optical_convention(model: Model, limits: Limits) -> Iterator[Hit]:
     """An _optical frame does not have optical axes."""
@@ -481,7 +483,8 @@ def _stem(name: str) -> str | None:
 @check(
     "image-not-optical",
     Severity.NOTE,
-    rule='an image\'s frame has no "optical" in its name, and no optical axes (z forward, y down)',
+    rule='the frame of an image has no "optical" in its name, and no optical axes (z forward, y '
+    "down)",
     headline="{where} {concerned:is|are} not in an optical frame",
     detail="{topic} is in {frame}{axes}",
     consequence="a projection of its pixels looks along the wrong axis",
@@ -539,7 +542,7 @@ def _axes_on_robot(model: Model, frame: str) -> tuple[Triple, Triple] | None:
 @check(
     "suspect-units",
     Severity.NOTE,
-    rule="a static below a base frame is longer than {metres:g} m",
+    rule="a static below a base frame has a translation longer than {metres:g} m",
     headline="{where} {concerned:is|are} far away for a mount",
     detail="{edge}: {away:m}",
     consequence="if it is in millimetres, everything below is a thousand times too far away",

@@ -384,8 +384,15 @@ def as_page() -> str:
     lines = [
         "# What the doctor looks for",
         "",
-        "Written by `tftool doctor --list --markdown`. Names in CAPITALS stand for what was found.",
-        "A threshold is changed with `--limit ID.NAME=VALUE`.",
+        "`tftool doctor --list --markdown` writes this page. The rule of a check states when the",
+        "check reports a finding, and when a finding is only a warning or a note. *Says* and *so*",
+        "are the texts of the finding; names in CAPITALS stand for its facts. *Fix* is the remedy.",
+        "",
+        "A *static* is a static transform, as on /tf\\_static. A *mount* is the fixed pose of a "
+        "part",
+        "on a robot. A *range* is a message of the type `sensor_msgs/Range`. A *share* is a "
+        "fraction",
+        "from 0 to 1. `--limit ID.NAME=VALUE` sets the threshold NAME of the check ID.",
     ]
     for area in Area:
         lines += ["", f"## {area.value[0].upper()}{area.value[1:]}"]
