@@ -33,7 +33,7 @@ class ConvertOptions(
     """
 
     words: list[str] | None = argument(
-        "Numbers, or pasted text. With - or without any, stdin is read.", metavar="[ROTATION]..."
+        "Numbers, or pasted text. With -, or without words, stdin is read.", metavar="[ROTATION]..."
     )
     form: str | None = option(
         f"Meaning of numbers without names: {', '.join(NAMED_FORMS)}, or an order of axes: s "

@@ -35,10 +35,10 @@ class CalibrateOptions(Command, shares=False, poses=True):
         metavar="FIXED:MOVING|TOPIC",
     )
     planar: bool = flag(
-        "Estimate only x, y and yaw; keep the other numbers of the published mount."
+        "Estimate only x, y and yaw; take height, roll and pitch from the published mount."
     )
     time_only: bool = flag("Measure only the clock offset, without the mount.")
-    scale: bool = flag("Estimate a scale of the first motion's translations.")
+    scale: bool = flag("Also estimate a factor for the translations of the first motion.")
     check: bool = flag(
         "Compare the published mount with the result; exit status 1 if it is outside the interval."
     )
@@ -46,7 +46,8 @@ class CalibrateOptions(Command, shares=False, poses=True):
         "Robot description that contains the mount.", "--urdf", metavar="FILE", panel=MOUNT
     )
     mounted: str | None = option(
-        "Name that the second moving frame has in tf or in the description, if it differs.",
+        "Name of the second moving frame in tf or in the description, if the motion has another "
+        "name for this frame.",
         metavar="NAME",
         panel=MOUNT,
     )
@@ -56,7 +57,7 @@ class CalibrateOptions(Command, shares=False, poses=True):
         metavar="NAME",
         panel=MOUNT,
     )
-    seed: int = option("Seed of the numbers drawn for intervals.", default=0, metavar="N", min=0)
+    seed: int = option("Seed of the random numbers for intervals.", default=0, metavar="N", min=0)
     no_cache: bool = flag("Read the recordings again, without the cache, and write no cache.")
     output: Path | None = output_file(
         "Write the mount: .urdf, .launch.py, .launch.yaml, .launch.xml or .sh."

@@ -54,9 +54,7 @@ class DemoOptions(Command, hosts_turtles=True, recordings=True):
     recording: Path | None = option(
         "Record the world of the demo to an .mcap file.", "--record", metavar="FILE"
     )
-    still: bool = flag(
-        "Leave turtle1 where it is while no key is pressed; otherwise it begins to draw by itself."
-    )
+    still: bool = flag("Do not let turtle1 drive and draw by itself while no key is pressed.")
     listing: bool = flag("List the built-in scenarios, and end.", "--list")
     ascii_only: Ascii = False
     light: Light = False

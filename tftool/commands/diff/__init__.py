@@ -43,7 +43,7 @@ class DiffOptions(Command, descriptions=True, urdf=True):
 
     first: str = argument(
         "A recording, a robot description, a scenario, a launch file or script of static "
-        "transforms, or the word 'session' for the one that runs.",
+        "transforms, or the word 'session' for the running session.",
         default=...,
         metavar="A",
     )
@@ -87,7 +87,8 @@ class DiffOptions(Command, descriptions=True, urdf=True):
         panel=TRAJECTORIES,
     )
     match: Literal["nearest", "interpolate"] = option(
-        "Take A's nearest pose within 10 ms, or interpolate A at B's stamps.",
+        "Compare each pose of B with the nearest pose of A within 10 ms, or with A interpolated at "
+        "the stamp of B.",
         default="nearest",
         panel=TRAJECTORIES,
     )

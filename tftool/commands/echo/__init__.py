@@ -40,7 +40,7 @@ class EchoOptions(Command, looks_only=True, recordings=True, descriptions=True, 
     place: str | None = argument(
         "Source of the frames: a scenario (name or file), a recording (file, folder, glob) or a "
         "robot description; if not given, the running session, else the scenario turtles. A number "
-        "is taken as --rate.",
+        "in place of FROM is the rate, like --rate.",
         metavar="[FROM]",
     )
     rate: float | None = option(
@@ -59,8 +59,8 @@ class EchoOptions(Command, looks_only=True, recordings=True, descriptions=True, 
         "Look up the transform at now plus SECONDS; -5 means five seconds ago.", check=finite
     )
     fixed_frame: str | None = option(
-        "With --offset: look up only SOURCE at that moment, and TARGET now. FRAME must not move "
-        "between the two moments, such as world.",
+        "With --offset: look up SOURCE at that moment and TARGET now, through FRAME. This frame, "
+        "such as world, must not move between the two moments.",
         metavar="FRAME",
         panel=WHEN,
     )

@@ -37,7 +37,9 @@ class EditOptions(Command, shares=False, poses=True):
     """
 
     names: list[str] = argument(
-        "Recordings: files, folders, globs. Several are joined.", default=..., metavar="IN..."
+        "Recordings: files, folders, globs. Several recordings are joined.",
+        default=...,
+        metavar="IN...",
     )
     output: Path = option(
         "File to write: .mcap, .db3 or .bag; a name without a suffix becomes a folder, as "
@@ -72,7 +74,7 @@ class EditOptions(Command, shares=False, poses=True):
     )
     statics_from: str | None = option(
         "Take the static transforms of another recording or of a robot description; they replace "
-        "those of the same frames.",
+        "the recorded static transforms of the same frames.",
         metavar="OTHER",
         panel=LINKS,
     )

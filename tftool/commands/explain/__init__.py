@@ -35,7 +35,7 @@ class ExplainOptions(Command, looks_only=True, recordings=True, descriptions=Tru
     at: AtOption = None
     message: str = option(
         "Look up at the stamp of a message of this topic, with the data received until the message "
-        "arrived. It is the first message, or the message nearest to --at or to MOMENT.",
+        "arrived. The message is the one nearest to MOMENT or --at, or else the first.",
         default="",
         metavar="TOPIC[@MOMENT]",
     )

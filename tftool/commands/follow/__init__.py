@@ -29,7 +29,7 @@ class FollowOptions(Command):
     follower: str = argument(
         "Turtle to spawn and to drive.", default="turtle2", metavar="[FOLLOWER]"
     )
-    place: str | None = argument("World to host: a scenario's name or file.", metavar="[FROM]")
+    place: str | None = argument("Scenario to host: its name or file.", metavar="[FROM]")
     period: Duration = seconds_option(
         "Time between two commands; 1 if not given.", default=seconds(1), panel=None
     )

@@ -23,7 +23,7 @@ class LaunchOptions(Command):
     """
 
     words: list[str] = argument(
-        "A launch file, or a package and its launch file; then arguments.",
+        "A launch file, or a package and its launch file; then launch arguments.",
         default=...,
         metavar="FILE|PACKAGE [FILE] [NAME:=VALUE]…",
     )

@@ -46,8 +46,8 @@ class PlotOptions(Command, looks_only=True, recordings=True):
     pairs: Pairs = None
     output: Path | None = output_file("Write a picture: .svg, .pdf or .png.")
     only: list[str] | None = option(
-        "Draw only these: position (x, y, z), rotation (roll, pitch, yaw), distance, speed, "
-        "turn-rate, or single curves such as x.",
+        "Draw only the named quantities: position (x, y, z), rotation (roll, pitch, yaw), "
+        "distance, speed, turn-rate, or single curves such as x.",
         metavar="WHAT,...",
     )
     from_above: bool = flag(

@@ -34,7 +34,7 @@ class RobotOptions(Command, descriptions=True):
 
     place: str = argument("A robot description: URDF or xacro.", default=..., metavar="FILE")
     link: str | None = option(
-        "Link whose pose is shown; if not given, the one farthest from the root.",
+        "Link whose pose is shown; if not given, the link farthest from the root.",
         "--link",
         metavar="LINK",
     )

@@ -25,8 +25,6 @@ class Ros2Options(
     words: list[str] = argument(
         "The words that you would write after ros2.", default=..., metavar="COMMAND VERB …"
     )
-    place: str | None = option(
-        "World to host: a scenario's name or file.", "--in", metavar="SCENARIO"
-    )
+    place: str | None = option("Scenario to host: its name or file.", "--in", metavar="SCENARIO")
     run_for: RunFor = None
     as_json: Json = False

@@ -30,11 +30,12 @@ class RunOptions(
 
     target: str = argument("A node's file, or a package.", default=..., metavar="FILE|PACKAGE")
     rest: list[str] | None = argument(
-        "A package's executable; the node's own arguments; ROS 2's after --ros-args.",
+        "Executable of a package, then arguments of the node, then --ros-args and arguments of ROS "
+        "2.",
         metavar="[EXECUTABLE] [ARGUMENTS] [--ros-args …]",
     )
     place: str | None = option(
-        "World to host for the node: a scenario's name or file.", "--in", metavar="SCENARIO"
+        "Scenario to host for the node: its name or file.", "--in", metavar="SCENARIO"
     )
     force: RosFree = False
     run_for: RunFor = None

@@ -62,12 +62,12 @@ def _declared(reach: type[Reach]) -> dict[str, Any]:
 
 
 SESSION_OPTIONS: dict[str, Any] = {
-    "join": (bool, flag("Join the session that runs here; fail if there is none.", "--join")),
-    "host": (bool, flag("Host a new world, even if a session runs here.", "--host")),
+    "join": (bool, flag("Join the running session; fail if no session is running.", "--join")),
+    "host": (bool, flag("Host a new session, even if a session is running.", "--host")),
     "domain": (
         int | None,
         option(
-            "Number of the session to share; if not given, ROS_DOMAIN_ID, else 0.",
+            "Domain of the session, a number; if not given, ROS_DOMAIN_ID, else 0.",
             "--domain",
             min=0,
             max=LARGEST_DOMAIN,
@@ -75,7 +75,7 @@ SESSION_OPTIONS: dict[str, Any] = {
         ),
     ),
     **_declared(REACHES[0]),
-    "read_only": (bool, flag("Only look: publish nothing, serve nothing.", "--read-only")),
+    "read_only": (bool, flag("Publish nothing, and offer no services.", "--read-only")),
     **{name: kind for reach in REACHES[1:] for name, kind in _declared(reach).items()},
 }
 
@@ -130,7 +130,7 @@ class _OfUndescribed:
     """Option --urdf, for commands whose FROM may be a recording without a robot description."""
 
     urdf: Path | None = option(
-        "Robot description for a recording that does not contain one.",
+        "Robot description for a recording that contains no description.",
         metavar="FILE",
         panel=ROBOT,
     )

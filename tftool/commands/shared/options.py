@@ -403,8 +403,8 @@ Meshes = Annotated[
         rich_help_panel=ROBOT,
         file_okay=False,
         exists=True,
-        help="Folder with the packages that contain the meshes. Repeat the option for more; files "
-        "outside are never shown.",
+        help="Folder with the packages that contain the meshes. Repeat the option for more "
+        "folders. Files outside of these folders are never shown.",
     ),
 ]
 
@@ -422,7 +422,8 @@ Ascii = Annotated[
 Light = Annotated[
     bool,
     option(
-        "Use colors for a terminal with a light background; in a screen, the key m switches.",
+        "Use colors for a terminal with a light background; on a screen, the key m switches "
+        "between light and dark.",
         "--light",
         default=...,
     ),

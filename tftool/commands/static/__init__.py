@@ -45,6 +45,6 @@ class StaticOptions(
         "Child: frame whose pose is given.", "--child-frame-id", metavar="CHILD"
     )
     once: bool = flag(
-        "Publish the transform, print it, and stop. Programs running now receive it; later ones "
-        "do not."
+        "Publish the transform, print it, and stop. Programs that start later do not receive the "
+        "transform."
     )

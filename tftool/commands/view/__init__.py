@@ -34,7 +34,7 @@ class ViewOptions(Command, looks_only=True, recordings=True, descriptions=True, 
 
     place: From = None
     port: int = option(
-        "Port of the page; if it is taken, the next free port is used.",
+        "Port of the page; if another program uses this port, the next free port.",
         default=8765,
         metavar="PORT",
         min=0,
