@@ -18,13 +18,13 @@ MERGES = "a: &a {x: 1}\n" + "".join(
 @pytest.mark.parametrize(
     ("text", "told"),
     [
-        (BOMB, "the YAML has more than 200,000 values, the limit"),
-        (MERGES, "the YAML has more than 200,000 values, the limit"),
-        ("[" * 5000, "the YAML has more than 100 levels, the limit"),
-        ("- " * 5000 + "x", "the YAML has more than 100 levels, the limit"),
+        (BOMB, "the YAML has more values than the limit of 200,000"),
+        (MERGES, "the YAML has more values than the limit of 200,000"),
+        ("[" * 5000, "the YAML has more nested levels than the limit of 100"),
+        ("- " * 5000 + "x", "the YAML has more nested levels than the limit of 100"),
         ("&a [*a]", r"the alias \*a is used inside its own value"),
         ("a: &a {b: *a}", r"the alias \*a is used inside its own value"),
-        ("x" * (4 * 1024 * 1024 + 1), "characters, the limit"),
+        ("x" * (4 * 1024 * 1024 + 1), "more characters than the limit"),
         ("!!timestamp x", "not the timestamp that it is tagged as"),
         ("!!int x", "not the int that it is tagged as"),
         ("[!!float {a: 1}]", "mapping"),

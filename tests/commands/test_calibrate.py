@@ -109,7 +109,7 @@ def test_a_word_for_one_motion_is_that_of_the_file_that_has_it(tftool, words, ma
     assert near(json.loads(second.out)["mount"], made)
     neither = tftool("calibrate", run, run, *options)
     assert neither.status == 2
-    assert "several motions: name one with --moving" in neither.err
+    assert "several motions: name one motion with --moving" in neither.err
 
 
 def test_chains_that_share_the_mount_are_refused_by_name(tftool, tmp_path):

@@ -121,7 +121,7 @@ def test_a_misspelt_name_is_told(tftool, scenarios):
     assert result.status == 3
     assert result.err == (
         "tftool: no scenario is named 'turtels'; did you mean 'turtles'? "
-        "A path to a file does as well.\n"
+        "The path of a scenario file is also allowed.\n"
     )
 
 

@@ -103,7 +103,7 @@ def test_a_zenoh_configuration_that_is_none_is_a_sentence(tftool):
     result = tftool("echo", "a", "b", "--zenoh-config", "README.md")
 
     assert result.status == 3
-    assert "the link cannot be opened (README.md)" in result.err
+    assert "the connection to the session cannot be opened (README.md)" in result.err
 
 
 @needs_openssl
@@ -204,7 +204,7 @@ def test_without_zenoh_a_world_is_hosted_and_joining_says_what_is_missing(
     joined = tftool("echo", "world", "turtle1", "--once", "--join")
 
     assert hosted.status == 0
-    missing = "talking to other processes needs 'eclipse-zenoh', which is missing here"
+    missing = "connections to other processes need the package 'eclipse-zenoh'"
     assert hosted.err.startswith(f"No other process can join this world: {missing}")
     assert joined.status == 3
     assert joined.err.startswith(f"tftool: {missing}")

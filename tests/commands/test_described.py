@@ -118,7 +118,7 @@ def test_tree_tells_programs_which_frames_move(tftool, robot):
     ("words", "told"),
     [
         (["--joint", "turm=1"], "has no joint 'turm'; did you mean 'turn'?"),
-        (["--joint", "elbow=1"], "has no joint 'elbow'; those that move are turn"),
+        (["--joint", "elbow=1"], "has no joint 'elbow'; the movable joints are turn"),
         (["--joint", "bolt=1"], "joint 'bolt' is fixed, so it has no position"),
         (["--joint", "turn"], "write NAME=VALUE"),
         (["--joint", "turn=fast"], "write NAME=VALUE"),

@@ -113,7 +113,7 @@ def test_no_cell_is_a_formula(tftool, tmp_path):
     ("words", "told"),
     [
         (["-o", "found.xlsx"], "end it in .jsonl, .csv or .parquet"),
-        (["--resume"], "only allowed with -o FILE: add it"),
+        (["--resume"], "only allowed with -o FILE: add -o FILE"),
         (["-o", "found.csv", "--select", "shap"], "did you mean shape?"),
     ],
 )

@@ -82,7 +82,7 @@ def test_a_scenario_in_a_file_called_by_a_number_is_a_file(tftool, tmp_path, mon
         (["--cache-time", "0"], 2, "0 is not a positive number."),
         (["nosuch", "--once"], 3, "no scenario is named 'nosuch'"),
         (["turtels", "--once"], 3, "did you mean 'turtles'?"),
-        (["turtles", "--at", "61"], 2, "lasts 60 s: 61 s is after its end."),
+        (["turtles", "--at", "61"], 2, "lasts 60 s: the time 61 s is after its end."),
         (["turtles", "--at", "0.5"], 4, "extrapolation into the past"),
     ],
 )

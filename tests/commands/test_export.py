@@ -410,7 +410,7 @@ def test_the_input_is_never_written_to(tftool, run, tmp_path):
         (["odom", "base", "RUN", "-o", "a.tum", "--at", "1"], 2, "--from and --to"),
         (["odom", "base", "RUN", "-o", "a.tum", "--from", "2", "--to", "1"], 2, "is after --to"),
         (["odom", "base", "RUN", "-o", "a.tum", "--from", "100"], 2, "100 s is after its end."),
-        (["odom", "base", "RUN", "-o", "a.tum", "--to", "1e9"], 2, "is before that."),
+        (["odom", "base", "RUN", "-o", "a.tum", "--to", "1e9"], 2, "is before this start."),
         (["odom", "base", "RUN", "-o", "a.tum", "--for", "1"], 2, "--for is only allowed for"),
         (["odom", "base", "RUN", "-o", "a.tum", "--at-stamps-of", "/scan"], 3, "/scan"),
         (["odom", "base", "turtles", "-o", "a.tum", "--at-stamps-of", "/scan"], 2, "recording"),

@@ -230,7 +230,7 @@ def test_a_place_that_needs_another_package_is_wrong_usage(tftool):
 @pytest.mark.parametrize(
     ("words", "told"),
     [
-        (["--scheduler", "tcp://127.0.0.1:1"], "only allowed with -o FILE: add it"),
+        (["--scheduler", "tcp://127.0.0.1:1"], "only allowed with -o FILE: add -o FILE"),
         (
             ["-o", "x.jsonl", "-j", "2", "--scheduler", "tcp://127.0.0.1:1"],
             "--scheduler and --jobs are two ways",

@@ -104,7 +104,9 @@ def test_a_world_can_be_lived_through_to_a_moment():
 
 
 def test_a_moment_after_the_end_is_refused():
-    with pytest.raises(UsageError, match="scenario 'turtles' lasts 60 s: 61 s is after its end"):
+    with pytest.raises(
+        UsageError, match="scenario 'turtles' lasts 60 s: the time 61 s is after its end"
+    ):
         open_frames("turtles", until=At(seconds(61)))
 
 
@@ -156,7 +158,7 @@ def test_a_built_in_name_wins_and_a_path_is_itself(tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     ("word", "told"),
     [
-        ("turtels", "no scenario is named 'turtels'; did you mean 'turtles'? A path"),
+        ("turtels", "no scenario is named 'turtels'; did you mean 'turtles'? The path"),
         ("nothing_like_it", "no scenario is named 'nothing_like_it'; there are calibrate, "),
         (".", "No recording"),
         ("gone.yaml", "There is no file or folder 'gone.yaml'."),
@@ -220,9 +222,9 @@ def test_the_past_of_a_recording_is_told_from_its_end(tftool, recording):
 @pytest.mark.parametrize(
     ("words", "status", "told"),
     [
-        (["--at", "11"], 2, "lasts 10 s: 11 s is after its end."),
-        (["--at", "1970-01-01T00:00:49Z"], 2, "begins at 50: 49 is before that."),
-        (["--at", "1e9"], 2, "ends at 60: 1000000000 is after that."),
+        (["--at", "11"], 2, "lasts 10 s: the time 11 s is after its end."),
+        (["--at", "1970-01-01T00:00:49Z"], 2, "begins at 50: the time 49 is before this start."),
+        (["--at", "1e9"], 2, "ends at 60: the time 1000000000 is after this end."),
         (["--join"], 2, "which cannot be joined"),
         (["--read-only"], 2, "which cannot be shared"),
     ],

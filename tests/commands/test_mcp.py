@@ -246,14 +246,14 @@ def test_only_what_is_below_the_root_is_read_and_only_what_runs_no_code(tmp_path
     refused, fine, option, listed, part = served(root, work)
 
     assert not any("secret" in text for text in refused.values())
-    assert "is outside the root" in refused["link.urdf"]
-    assert "is outside the root" in refused["bag"]
+    assert "is outside of the folder" in refused["link.urdf"]
+    assert "is outside of the folder" in refused["bag"]
     assert "may run code" in refused["r.xacro"]
     assert "is a scenario" in refused["s.yaml"]
     assert json.loads(fine.content[0].text)["roots"] == ["base"]
     assert json.loads(option.content[0].text)["roots"] == ["option"]
     assert json.loads(listed.content[0].text) == ["r.urdf"]
-    assert "The answer has no part 'nothing', but these:" in part.content[0].text
+    assert "The answer has no part 'nothing'; its parts are:" in part.content[0].text
 
 
 def test_its_tools_say_that_they_only_read(root):

@@ -112,7 +112,7 @@ def test_what_is_there_already_is_left_alone(tftool, place, words):
         (["my_frames", "--example", "carot"], "there is no example 'carot'"),
         (["rclpy"], "a package of ROS 2"),
         (["geometry_msgs"], "a package of ROS 2"),
-        (["mine.yaml"], "With --scenario it is a scenario."),
+        (["mine.yaml"], "With --scenario, the name is that of a scenario file."),
     ],
 )
 def test_a_name_that_would_not_do_is_refused(tftool, place, words, said):

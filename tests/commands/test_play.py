@@ -40,8 +40,8 @@ def test_over_and_over_it_tells_of_every_jump_back(tftool, simulated, run):
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        (["--from", "99"], "The recording lasts 0."),
-        (["--to", "99"], "99 s is outside of that"),
+        (["--from", "99"], "outside of the recording, which lasts 0."),
+        (["--to", "99"], "The time 99 s is outside of the recording"),
         (["--from", "0.3", "--to", "0.1"], "--from 0.3 s is after --to 0.1 s"),
         (["--rate", "0"], "is not between 0.01 and 100"),
         (["--restamp", "yesterday"], "yesterday"),

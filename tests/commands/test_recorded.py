@@ -327,7 +327,10 @@ def test_a_recording_that_goes_on_without_transforms_names_both_lengths(tftool, 
     judged = tftool("doctor", str(run))
 
     assert asked.status == 2
-    assert "end at 2 s (messages were received for 9.9 s): 5 s is after their end" in asked.err
+    assert (
+        "end at 2 s (messages were received for 9.9 s): the time 5 s is after the last transform"
+        in asked.err
+    )
     assert "MCAP, 9.9 s (its transforms end at 2.0 s)" in judged.out
 
 

@@ -145,13 +145,18 @@ def test_show_args_prints_what_a_file_takes(capsys):
         (["run", "pkg_tf", "rotate", "--ros-args", "-p", "x"], 2, "write name:=value"),
         (["run", "pkg_tf", "rotate", "--ros-args", "-r", "x"], 2, "write old:=new"),
         (["run", "pkg_tf", "rotate", "--ros-args", "--params-file", "no"], 3, "cannot read the"),
-        (["launch", "pkg_tf"], 2, "which launch file of package 'pkg_tf'? It has carrot.launch"),
+        (
+            ["launch", "pkg_tf"],
+            2,
+            "no launch file of package 'pkg_tf' is named: add its name. The package has "
+            "carrot.launch",
+        ),
         (["launch", "pkg_tf", "x.launch.py"], 2, "has no launch file 'x.launch.py'"),
         (["launch", "gone.launch.py"], 3, "cannot read 'gone.launch.py'"),
         (["run", *SIMULATED, "pkg_tf"], 2, "name an executable of package 'pkg_tf'. ("),
         (["run", *SIMULATED, "."], 2, "'.' is a folder: give a node's file, or PACKAGE EXECUTABLE"),
         (["launch", "nothing", "x"], 2, "there is no package 'nothing' below"),
-        (["launch", "pkg_tf", "carrot.launch.xml", "x"], 2, "'x' is no launch argument"),
+        (["launch", "pkg_tf", "carrot.launch.xml", "x"], 2, "'x' is not a launch argument"),
         (["launch", "pkg_tf", "carrot.launch.xml", "sorce_frame:=x"], 2, "mean 'source_frame"),
         (["launch", "pkg_tf", "carrot.launch.xml", "--simulated"], 2, "add --for SECONDS"),
     ],
@@ -500,9 +505,14 @@ def test_ros2s_words_ask_the_session_and_are_refused_with_a_sentence(capsys):
     assert main(["ros2", "topik", "list"]) == 2
     assert "invalid choice: 'topik'" in capsys.readouterr().err
     assert main(["ros2", "run", "turtlesim", "turtlesim_node"]) == 2
-    assert capsys.readouterr().err == "tftool: 'ros2 run' is 'tftool run' here.\n"
+    assert (
+        capsys.readouterr().err == "tftool: 'tftool ros2' has no command 'run': use 'tftool run'.\n"
+    )
     assert main(["ros2", "bag", "info", "run.mcap"]) == 2
-    assert capsys.readouterr().err == "tftool: 'ros2 bag info' is 'tftool info' here.\n"
+    assert (
+        capsys.readouterr().err
+        == "tftool: 'tftool ros2' has no command 'bag info': use 'tftool info'.\n"
+    )
     assert main(["run", "joint_state_publisher_gui", "joint_state_publisher_gui"]) == 2
     assert "run 'tftool robot FILE' in one" in capsys.readouterr().err
 
@@ -523,7 +533,7 @@ def test_a_viewer_of_ros_runs_the_command_of_the_same_purpose(tmp_path, tftool, 
         assert (tmp_path / file).read_bytes().startswith(b"%PDF")
 
     misplaced = tftool("run", "--for", "1", "rviz2", "rviz2")
-    assert (misplaced.status, "is 'tftool view' here" in misplaced.err) == (2, True)
+    assert (misplaced.status, "is replaced by 'tftool view'" in misplaced.err) == (2, True)
     lacking = tftool("run", "tf2_ros", "tf2_echo", "world")
     assert (lacking.status, "Missing argument 'SOURCE'" in lacking.err) == (2, True)
 

@@ -160,7 +160,7 @@ def test_several_chains_need_a_pair(tftool, tmp_path):
         (("--rpe", "--per", "1.5"), "--per must be frames, metres or degrees"),
         (("--rpe", "--per", "10cm"), "--per must be frames, metres or degrees"),
         (("--ape", "-o", "x.gif"), "end it in .svg, .pdf or .png"),
-        (("--ape", *(("--pair", "a:b") * 3)), "Too many --pair: give one for both sources"),
+        (("--ape", *(("--pair", "a:b") * 3)), "--pair is given more than twice: give one pair"),
     ],
 )
 def test_options_that_do_not_fit_are_refused(tftool, truth, words, told):

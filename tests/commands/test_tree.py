@@ -113,7 +113,11 @@ def test_a_pdf_goes_down_a_pipe_as_bytes():
         (["--watch", "--format", "json"], 2, "leave out --format"),
         (["--json", "--format", "dot"], 2, "--json and --format dot are two output formats"),
         (["--for", "1"], 2, "--for is only allowed with --watch"),
-        (["--at", "1e9"], 2, "scenario 'turtles' ends at 1060: 1000000000 is after that."),
+        (
+            ["--at", "1e9"],
+            2,
+            "scenario 'turtles' ends at 1060: the time 1000000000 is after this end.",
+        ),
         (["nosuch"], 3, "no scenario is named 'nosuch'"),
     ],
 )

@@ -179,7 +179,7 @@ def test_a_file_that_includes_itself_is_found_out(tmp_path, ending):
         }[ending]
     )
 
-    with pytest.raises(NodeFailed, match="is included 50 deep: check whether it includes itself"):
+    with pytest.raises(NodeFailed, match="is nested in 50 included launch files: check"):
         launch(file, seconds=1)
 
 

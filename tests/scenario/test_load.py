@@ -58,7 +58,7 @@ ten.yaml:6:5: there is no kind of node 'brodcaster'; did you mean 'broadcaster'?
 ten.yaml:7:24: unknown argument '$sorce_frame'; did you mean 'source_frame'?
      7 |   - follower: {leader: $sorce_frame, period: 1 parsec, period: 2 s}
        |                        ^^^^^^^^^^^^
-ten.yaml:7:46: '1 parsec' is not a duration: 'parsec' is not a unit of it; its unit may be \
+ten.yaml:7:46: '1 parsec' is not a duration: 'parsec' is not an allowed unit; allowed units are \
 s, ms, us, µs, ns, min, h
      7 |   - follower: {leader: $sorce_frame, period: 1 parsec, period: 2 s}
        |                                              ^^^^^^^^
@@ -68,7 +68,7 @@ ten.yaml:7:56: the key 'period' is given twice, first in line 7
 ten.yaml:9:21: 'lefft' is not a key; did you mean 'left'?
      9 |   - {at: 1 s, keys: "up up lefft up"}
        |                     ^^^^^^^^^^^^^^^^
-ten.yaml:10:10: '6 m' is not a duration: m is the unit of a length; its unit may be \
+ten.yaml:10:10: '6 m' is not a duration: m is the unit of a length; allowed units are \
 s, ms, us, µs, ns, min, h (minutes are min)
     10 |   - {at: 6 m, drive: {turtle: turtle1, linear: fast}, for: 4 s}
        |          ^^^
@@ -184,12 +184,12 @@ def test_a_duration_is_exact_in_any_unit(written, nanoseconds):
     [
         (
             "5 m",
-            "m is the unit of a length; its unit may be "
+            "m is the unit of a length; allowed units are "
             "s, ms, us, µs, ns, min, h (minutes are min)",
         ),
-        ("90 deg", "deg is the unit of an angle; its unit may be s, ms, us, µs, ns, min, h"),
-        ("10 hz", "'hz' is not a unit of it; its unit may be s, ms, us, µs, ns, min, h"),
-        ("10 MS", "'MS' is not a unit of it; did you mean 'ms'?"),
+        ("90 deg", "deg is the unit of an angle; allowed units are s, ms, us, µs, ns, min, h"),
+        ("10 hz", "'hz' is not an allowed unit; allowed units are s, ms, us, µs, ns, min, h"),
+        ("10 MS", "'MS' is not an allowed unit; did you mean 'ms'?"),
     ],
 )
 def test_a_number_with_a_wrong_unit_is_told_which_there_are(written, wrong):
@@ -309,7 +309,7 @@ def test_an_alias_bomb_is_refused():
     lines = ["a0: &a0 [x, x, x, x, x, x, x, x, x, x]"]
     lines += [f"a{n}: &a{n} [{', '.join([f'*a{n - 1}'] * 10)}]" for n in range(1, 12)]
 
-    assert told("\n".join(lines)) == ["the YAML has more than 20,000 values, the limit"]
+    assert told("\n".join(lines)) == ["the YAML has more values than the limit of 20,000"]
 
 
 def test_an_alias_to_what_holds_it_is_refused():
@@ -318,12 +318,12 @@ def test_an_alias_to_what_holds_it_is_refused():
 
 
 def test_deep_nesting_is_refused():
-    assert told("nodes: " + "[" * 5000) == ["the YAML has more than 20 levels, the limit"]
+    assert told("nodes: " + "[" * 5000) == ["the YAML has more nested levels than the limit of 20"]
 
 
 def test_a_text_that_is_too_long_is_refused():
     assert told("#" * (document.LARGEST + 1)) == [
-        "the YAML has more than 262,144 characters, the limit"
+        "the YAML has more characters than the limit of 262,144"
     ]
 
 

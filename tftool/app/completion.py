@@ -247,7 +247,7 @@ def _read_frames(word: str) -> list[str]:
 
         return list(load_urdf(word).links)
     if not found.kind.is_recording:
-        raise UsageError("the frames of a scenario are unknown until the scenario runs")
+        raise UsageError("the frames of a scenario are only known while the scenario runs")
     kept = frames_kept(found)
     if kept is None and not key_of(found):
         from tftool.recordings.column_cache import ColumnCache
@@ -333,7 +333,8 @@ def install(shell: str) -> list[Path]:
         home = Path.home()
     except RuntimeError:
         raise InputError(
-            "HOME is not set, and this user has no home: set it to a folder that can be written."
+            "The variable HOME is not set, and this user has no home: set HOME to a writable "
+            "folder."
         ) from None
     if shell == "fish":
         settings = Path(os.environ.get("XDG_CONFIG_HOME") or home / ".config")

@@ -48,7 +48,7 @@ def events(
         yaml.YAMLError: If the text is not YAML.
     """
     if len(text) > largest:
-        raise TooMuch(f"the YAML has more than {largest:,} characters, the limit")
+        raise TooMuch(f"the YAML has more characters than the limit of {largest:,}")
     values = 0
     sizes: dict[str, int] = {}
     # For each open collection: its anchor, and the number of values before it.
@@ -69,7 +69,7 @@ def events(
                 opened.append((event.anchor, values))
                 if len(opened) > deepest:
                     raise TooMuch(
-                        f"the YAML has more than {deepest} levels, the limit",
+                        f"the YAML has more nested levels than the limit of {deepest}",
                         event.start_mark,
                     )
             values += 1
@@ -79,7 +79,7 @@ def events(
                 sizes[anchor] = values - before
         if values > most_values:
             raise TooMuch(
-                f"the YAML has more than {most_values:,} values, the limit",
+                f"the YAML has more values than the limit of {most_values:,}",
                 event.start_mark,
             )
         yield event

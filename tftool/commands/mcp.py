@@ -243,7 +243,7 @@ class Questions:
         if part:
             if not isinstance(answer, dict) or part not in answer:
                 keys = ", ".join(answer) if isinstance(answer, dict) else "none"
-                raise UsageError(f"The answer has no part '{part}', but these: {keys}.")
+                raise UsageError(f"The answer has no part '{part}'; its parts are: {keys}.")
             answer = answer[part]
         return fitted(answer[skip:] if isinstance(answer, list) else answer)
 
@@ -259,18 +259,23 @@ class Questions:
         try:
             path = (self._root / source).resolve(strict=True)
         except (OSError, ValueError, RuntimeError) as error:
-            raise InputError(f"'{source}' does not exist below the root.") from error
+            raise InputError(
+                f"'{source}' does not exist in the folder that the server was started with."
+            ) from error
         if not self._stays_inside(path):
             raise InputError(
-                f"'{source}' is outside the root, or a symbolic link to a file outside: only files "
-                "below the root are read."
+                f"'{source}' is outside of the folder, or a symbolic link that leads out of the "
+                "folder: only files in the folder that the server was started with are read."
             )
         word = f"./{path.relative_to(self._root)}"
         if path.suffix == ".xacro" or source.endswith(".xacro"):
-            raise InputError(f"'{source}' is xacro, which may run code: expand it first.")
+            raise InputError(
+                f"'{source}' is xacro, which may run code: first expand it to a URDF file."
+            )
         if named(str(path)).kind is Kind.SCENARIO:
             raise InputError(
-                f"'{source}' is a scenario: only recordings and descriptions are read here."
+                f"'{source}' is a scenario, but 'tftool mcp' reads only recordings and "
+                "descriptions."
             )
         return word
 

@@ -138,7 +138,11 @@ if __name__ == "__main__":
 def _check_name(name: str) -> None:
     """Raise UsageError for a package name that ROS 2 or Python would not accept."""
     if not re.fullmatch(r"[a-z](_?[a-z0-9])*", name):
-        hint = " With --scenario it is a scenario." if name.endswith((".yaml", ".yml")) else ""
+        hint = (
+            " With --scenario, the name is that of a scenario file."
+            if name.endswith((".yaml", ".yml"))
+            else ""
+        )
         raise UsageError(
             f"'{name}' is not a valid package name: use small letters, digits and single "
             f"underscores, a letter first, as in 'my_frames'.{hint}"

@@ -120,7 +120,7 @@ def message_of(model: Model, topic: str, near: Stamp | None) -> tuple[Heard, Sta
     if not heards:
         known = sorted({heard.topic for heard in model.heard})
         hint = near_names(topic, known) or known[:5]
-        told = f" There are {', '.join(hint)}." if hint else ""
+        told = f" Topics with headers: {', '.join(hint)}." if hint else ""
         raise InputError(f"No message with a header was recorded on '{topic}'.{told}")
     if near is None:
         first = min(heards, key=lambda heard: int(heard.logs[0]))

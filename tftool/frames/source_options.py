@@ -49,7 +49,7 @@ def checked_moment(
     if duration is not None and stamp > epoch + duration:
         if at.is_stamp:
             end = At(epoch + duration, is_stamp=True)
-            raise UsageError(f"{title} ends at {end}: {at} is after that.")
+            raise UsageError(f"{title} ends at {end}: the time {at} is after this end.")
         lasts = f"{title} lasts {as_seconds(duration):g} s"
         # Messages on other topics may continue long after the last transform.
         if received > duration + NANOSECONDS:
@@ -57,10 +57,12 @@ def checked_moment(
                 f"The transforms of {title} end at {as_seconds(duration):g} s (messages were "
                 f"received for {as_seconds(received):.1f} s)"
             )
-            raise UsageError(f"{lasts}: {at} is after their end.")
-        raise UsageError(f"{lasts}: {at} is after its end.")
+            raise UsageError(f"{lasts}: the time {at} is after the last transform.")
+        raise UsageError(f"{lasts}: the time {at} is after its end.")
     if stamp < epoch:
-        raise UsageError(f"{title} begins at {At(epoch, is_stamp=True)}: {at} is before that.")
+        raise UsageError(
+            f"{title} begins at {At(epoch, is_stamp=True)}: the time {at} is before this start."
+        )
     return stamp
 
 

@@ -268,7 +268,7 @@ class Robot:
             hint = did_you_mean(name, self.joints)
             if moving and not hint:
                 more = ", ..." if len(moving) > MOST_NAMED else ""
-                hint = f"; those that move are {', '.join(moving[:MOST_NAMED])}{more}"
+                hint = f"; the movable joints are {', '.join(moving[:MOST_NAMED])}{more}"
             raise UsageError(f"robot '{self.name}' has no joint '{name[:100]}'{hint}")
         if not joint.moves:
             raise UsageError(f"joint '{name}' is {joint.type}, so it has no position")

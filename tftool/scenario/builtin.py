@@ -64,4 +64,4 @@ def unknown(word: str) -> str:
     hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(names())}."
     shown = visible(word)
     shown = f"{shown[:60]}…" if len(shown) > 60 else shown
-    return f"no scenario is named '{shown}'; {hint} A path to a file does as well."
+    return f"no scenario is named '{shown}'; {hint} The path of a scenario file is also allowed."

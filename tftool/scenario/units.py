@@ -71,16 +71,16 @@ def _measure(node: Node, reading: Reading, unit: Unit) -> tuple[str, str]:
 
 def _about(written: str, unit: Unit) -> str:
     if not unit.factors:
-        return f"it must have no unit: leave out {quoted(written)}"
-    may = f"its unit may be {', '.join(unit.factors)}"
+        return f"leave out the unit {quoted(written)}"
+    may = f"allowed units are {', '.join(unit.factors)}"
     for other in _UNITS:
         if written in other.factors:
             minutes = " (minutes are min)" if (written, unit) == ("m", DURATION) else ""
             return f"{written} is the unit of {other.kind}; {may}{minutes}"
     for known in unit.factors:
         if known.lower() == written.lower():
-            return f"{quoted(written)} is not a unit of it; did you mean '{known}'?"
-    return f"{quoted(written)} is not a unit of it; {may}"
+            return f"{quoted(written)} is not an allowed unit; did you mean '{known}'?"
+    return f"{quoted(written)} is not an allowed unit; {may}"
 
 
 def quantity(unit: Unit, *, least: float = -math.inf) -> Reader:

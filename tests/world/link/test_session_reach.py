@@ -122,7 +122,7 @@ def test_nobody_at_the_other_end_is_a_sentence(monkeypatch):
 
 
 def test_an_endpoint_that_cannot_be_is_a_sentence_and_leaves_nothing(session_dir):
-    with pytest.raises(LinkError, match="the link cannot be opened"):
+    with pytest.raises(LinkError, match="the connection to the session cannot be opened"):
         Link(Options(reach=ZenohReach(listen=("pigeon/over:there",))))
 
     assert [path.name for path in (session_dir / "0").iterdir()] == ["lock"]
@@ -131,7 +131,7 @@ def test_an_endpoint_that_cannot_be_is_a_sentence_and_leaves_nothing(session_dir
 def test_a_link_without_zenoh_says_what_is_missing(monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "zenoh", None)
 
-    with pytest.raises(LinkError, match=r"'eclipse-zenoh', which is missing here.*--host"):
+    with pytest.raises(LinkError, match=r"'eclipse-zenoh', which cannot be imported.*--host"):
         Link(Options())
 
 

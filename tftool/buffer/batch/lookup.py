@@ -444,7 +444,7 @@ def _paired(target_times: npt.ArrayLike, source_times: npt.ArrayLike) -> tuple[S
     if len(target_stamps) != len(source_stamps):
         raise ValueError(
             f"there are {len(target_stamps)} target_times, but {len(source_stamps)} source_times: "
-            "give as many of both, or a single time"
+            "give equal numbers of both, or a single time"
         )
     return target_stamps, source_stamps
 

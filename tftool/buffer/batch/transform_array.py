@@ -190,7 +190,8 @@ class TransformArray:
                 )
             if len(other) != len(self):
                 raise ValueError(
-                    f"{len(self)} transforms cannot be chained with {len(other)}: give equally many"
+                    f"{len(self)} transforms cannot be chained with {len(other)} transforms: "
+                    "give equal numbers of both"
                 )
             translations, rotations = other.translations, other.rotations
             child, valid = other.child_frame_id, self.valid & other.valid
@@ -237,7 +238,8 @@ class TransformArray:
         if not self.valid.all():
             count = int(np.count_nonzero(~self.valid))
             raise ValueError(
-                f"{count} of {len(self)} rows have no pose: use path[path.valid].to_scipy()"
+                f"{count} of {len(self)} rows have no pose: convert only the valid rows, "
+                "poses[poses.valid].to_scipy()"
             )
         rotation = Rotation.from_quat(self.rotations)
         return RigidTransform.from_components(self.translations, rotation), rotation

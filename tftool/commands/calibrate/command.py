@@ -202,8 +202,8 @@ def run(options: CalibrateOptions) -> ExitStatus:
             return _print_clocks(paths, for_programs=options.for_programs)
         if options.output is not None and paths[0].child_frame_id == paths[1].child_frame_id:
             raise UsageError(
-                f"Both motions are those of frame '{paths[0].child_frame_id}': give each pose "
-                "file its own names with --frames PARENT:CHILD after the file."
+                f"Both motions have the moving frame '{paths[0].child_frame_id}': give the frames "
+                "of each pose file other names with --frames PARENT:CHILD after the file."
             )
         robot = None if options.urdf is None else load_urdf(options.urdf)
         published = PublishedMount.of(robot, opened[0], paths, options.mounted)
@@ -252,7 +252,9 @@ def _refuse_outputs(
                 raise UsageError(f"cannot write '{path}': end it in {', '.join(wanted)}.")
             refuse_existing(path, force=force)
     if output is not None and output.suffix == ".urdf" and urdf is None:
-        raise UsageError("-o robot.urdf needs the description to change: add --urdf FILE.")
+        raise UsageError(
+            "-o robot.urdf needs the robot description that is to be changed: add --urdf FILE."
+        )
 
 
 def _print(found: Calibration, checked: PublishedMount | None, *, for_programs: bool) -> bool:
@@ -291,8 +293,8 @@ def _chains(opened: list[Frames], words: list[str]) -> list[Chain]:
     if len(opened) == 1:
         if len(words) != 2:
             raise UsageError(
-                f"'{visible(opened[0].name)}' is the only FROM, so it must contain both motions: "
-                "give --moving FIXED:MOVING twice."
+                f"'{visible(opened[0].name)}' is the only FROM, so this source must contain both "
+                "motions: give --moving FIXED:MOVING twice."
             )
         _refuse_shared_mount(opened[0].buffer, words)
         return [(opened[0], words[0]), (opened[0], words[1])]
@@ -355,16 +357,16 @@ def _path(frames: Frames, word: str) -> TransformArray:
             return path_of(frames)
         except InputError:
             raise UsageError(
-                f"'{visible(frames.name)}' has several motions: name one with --moving "
-                "FIXED:MOVING, or a /topic."
+                f"'{visible(frames.name)}' has several motions: name one motion with "
+                "--moving FIXED:MOVING, or with --moving /TOPIC."
             ) from None
     if not word.startswith("/"):
         return sample(frames.buffer, *_pair(word)).answered()
     topics, recording = _topics(frames), frames.recording
     if recording is None or word not in topics:
-        there = f"there is {', '.join(topics[:5])}" if topics else "there is none"
+        there = f"topics of these types: {', '.join(topics[:5]) or 'none'}"
         label = visible(frames.label)
-        raise InputError(f"No topic '{word}' of Odometry or PoseStamped in {label}; {there}.")
+        raise InputError(f"{label} has no topic '{word}' of type Odometry or PoseStamped; {there}.")
     edges = recording.source.transforms([word]).edges
     if not edges:
         raise InputError(f"'{word}' in {frames.label} has no messages.")

@@ -126,8 +126,8 @@ def write_mount(
     if is_xacro(text.decode("utf-8", "replace")):
         line = _line_of(text, chosen.name)
         raise UsageError(
-            f"'{urdf}' is expanded by xacro, so tftool cannot change it: set the origin of joint "
-            f"'{chosen.name}' ({urdf}{line}) to {origin}"
+            f"'{urdf}' is expanded by xacro, so tftool cannot change this file: set the origin of "
+            f"joint '{chosen.name}' ({urdf}{line}) to {origin}"
         )
     write_file(output, with_origin(text, chosen.name, origin))
     return [f"Wrote {output}: joint '{chosen.name}' has {origin}"]

@@ -78,7 +78,7 @@ def _words(option: str, text: str) -> tuple[str, ...]:
     try:
         words = tuple(shlex.split(text))
     except ValueError as error:
-        raise UsageError(f"{option} {text!r}: {str(error).lower()}") from None
+        raise UsageError(f"{option} {text!r} has a quoting mistake: {str(error).lower()}") from None
     if not words:
         raise UsageError(f"{option} is empty: give the words that follow 'tftool {option[2:]}'")
     return words

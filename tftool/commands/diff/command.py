@@ -180,5 +180,8 @@ def _pairs(words: list[str]) -> tuple[Pair | None, Pair | None]:
     """
     pairs, _ = pairs_and_place([], words)
     if len(pairs) > 2:
-        raise UsageError("Too many --pair: give one for both sources, or one for A and one for B.")
+        raise UsageError(
+            "--pair is given more than twice: give one pair for both sources, or one for A and one "
+            "for B."
+        )
     return (pairs[0], pairs[-1]) if pairs else (None, None)

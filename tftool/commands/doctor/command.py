@@ -219,11 +219,11 @@ def _refuse_contradictions(options: DoctorOptions) -> None:
         ),
         (
             not makes_rows and (options.resume or options.processes > 1 or options.scheduler),
-            "--jobs, --resume and --scheduler are only allowed with -o FILE: add it.",
+            "--jobs, --resume and --scheduler are only allowed with -o FILE: add -o FILE.",
         ),
         (
             options.pair and not options.steps,
-            f"--pair {options.pair} is only allowed with --steps: add it.",
+            f"--pair {options.pair} is only allowed with --steps: add --steps.",
         ),
         (
             options.baseline is not None and makes_rows,

@@ -52,7 +52,9 @@ def _moments(
     """Return the values of --from and --to as stamps; None for an option that was not given."""
     if start is None and end is None:
         if by_record_time:
-            raise UsageError("--record-time is only allowed with --from or --to: add one of them.")
+            raise UsageError(
+                "--record-time is only allowed with --from or --to: add --from or --to."
+            )
         return None, None
     epoch = 0
     if any(one is not None and not one.is_stamp for one in (start, end)):
@@ -173,7 +175,9 @@ def _statics(name: str) -> "tuple[TransformStamped, ...]":
 def run(options: EditOptions) -> ExitStatus:
     """Run `tftool edit`: write the changed recording."""
     if options.restamp not in (None, "log"):
-        raise UsageError("--restamp must be 'log', which is the time when a message was received.")
+        raise UsageError(
+            f"--restamp takes only 'log', the time of reception, not '{options.restamp}'."
+        )
     low, high = _moments(
         options.names, options.start, options.end, by_record_time=options.by_record_time
     )
@@ -197,7 +201,7 @@ def run(options: EditOptions) -> ExitStatus:
     if options.everywhere and not (edits.names or edits.stamps):
         raise UsageError(
             "--everywhere is only allowed with --rename, --prefix, --strip-slash or --shift: add "
-            "one of them."
+            "one of these options."
         )
     bar = Bar(f"Editing {visible(options.names[0])}")
     try:

@@ -93,7 +93,7 @@ def run(connection: Connection, options: PlotOptions) -> ExitStatus:
         ),
         (
             options.output is None and (options.dark or options.force),
-            "--dark and --force are only allowed with -o FILE: add it.",
+            "--dark and --force are only allowed with -o FILE: add -o FILE.",
         ),
         (
             options.as_json and options.output is not None,

@@ -72,7 +72,9 @@ def run(connection: Connection, options: Ros2Options) -> int:
     for length in (2, 1):
         asked = " ".join(words[:length])
         if asked in _ELSEWHERE:
-            raise UsageError(f"'ros2 {asked}' is 'tftool {_ELSEWHERE[asked]}' here.")
+            raise UsageError(
+                f"'tftool ros2' has no command '{asked}': use 'tftool {_ELSEWHERE[asked]}'."
+            )
     if words[0] == "test":
         return _run_launch_tests(connection, words[1:])
     workspace = Workspace(Path.cwd())

@@ -79,7 +79,7 @@ def _refuse_misplaced(target: str, words: Sequence[str]) -> None:
     if not any(f"{quote}{word}{quote}" in text for word in given for quote in "'\""):
         raise UsageError(
             f"put {' and '.join(given)} before FILE: words after FILE are passed to the program. "
-            "To pass such words to the program, write 'tftool run FILE -- WORDS'."
+            "To pass these words to the program, write 'tftool run FILE -- WORDS'."
         )
 
 
@@ -126,8 +126,8 @@ def _run_other(
         return None
     if refused:
         raise UsageError(
-            f"'{target} {words[0]}' is 'tftool {shlex.join(command)}' here: leave out --in, --for "
-            "and --simulated, which are only allowed for nodes"
+            f"'{target} {words[0]}' is replaced by 'tftool {shlex.join(command)}': leave out --in, "
+            "--for and --simulated, which are only allowed for nodes"
         )
     return _run_command(connection, [*command, *_own_words(words[1:])])
 
@@ -141,7 +141,7 @@ def _run_command(connection: Connection, words: list[str]) -> int:
     """
     if connection.reach.is_asked:
         raise UsageError(
-            "options of the session are not passed on here: give them to 'tftool "
+            "tftool run does not pass on options of the session: give these options to 'tftool "
             f"{shlex.join(words)}'"
         )
     if connection.domain:

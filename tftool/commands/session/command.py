@@ -106,8 +106,9 @@ def run(connection: Connection, options: SessionOptions) -> ExitStatus:
     """Run `tftool session`: print who shares the session, and what is published."""
     if options.place is not None:
         raise UsageError(
-            f"'{visible(options.place)}' is not the address of a session: leave it out to show "
-            "the session here, or give the address of a Foxglove server, such as ws://robot:8765."
+            f"'{visible(options.place)}' is not the address of a session: to show the session of "
+            "this machine, give no address, or give the address of a Foxglove server, such as "
+            "ws://robot:8765."
         )
     if connection.mode is Mode.HOST:
         raise UsageError(
@@ -115,7 +116,9 @@ def run(connection: Connection, options: SessionOptions) -> ExitStatus:
         )
     link = connection.open_link()
     if link is None:
-        raise LinkError("this command was started without a connection to other processes")
+        raise LinkError(
+            "'session' needs a connection to other processes, but was started without one"
+        )
     if link.unanswering:
         notice(link.unanswering)
     elif link.graph.is_empty:

@@ -213,7 +213,7 @@ class Connection:
         if word is None and self.reach.only_reads:
             raise UsageError(
                 f"{self.place} is a running session, which does not store the past: leave out the "
-                "option for a moment, or record the session first ('tftool record')."
+                "time, or record the session first ('tftool record')."
             )
         self.refuse_to_join(word)
         if self.needs_link:

@@ -94,20 +94,21 @@ def join_or_host(
             # The silent process may be a host: a second world of equal names would mix with it.
             link.close()
             raise LinkError(
-                f"{link.unanswering} Or work without it: --domain N starts a separate session, "
-                "--host a private world."
+                f"{link.unanswering} Or start another session: --domain N starts a session in "
+                "another domain, --host a session that no other command joins."
             )
         if connection.mode is Mode.JOIN or connection.read_only:
             link.close()
             what = "session with turtles" if there else "session"
             looks = (
-                " 'tftool view' and 'tftool tree --watch' show the frames of the one that runs."
+                " 'tftool view' and 'tftool tree --watch' show the frames of the running session."
                 if there
                 else ""
             )
             raise LinkError(
                 f"No {what} is running in domain {connection.domain}: start one with 'tftool "
-                f"demo', or leave out --join and --read-only to start one here.{looks}"
+                "demo', or leave out --join and --read-only, so that this command starts "
+                f"one.{looks}"
             )
     elif alone := _why_alone(connection, link):
         link.close()
@@ -246,7 +247,7 @@ def refuse_moment(connection: Connection) -> None:
         if link.graph.has_sources:
             running = session_name(link, connection.place)
             raise UsageError(
-                f"A session is running here, {running}; it does not store the past. Name a "
+                f"A session is running, {running}, and a session does not store the past. Name a "
                 f"scenario ('{HOME} --at 5') or a recording ('tftool record -o run.mcap', then "
                 f"'run.mcap --at 5'); --host hosts '{HOME}' in any case."
             )

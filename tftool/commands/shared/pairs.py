@@ -164,7 +164,8 @@ def moments_of(options: SpanOptions, frames: Frames) -> "Moments":
     if options.stamps_of is not None:
         if frames.recording is None:
             raise UsageError(
-                "--at-stamps-of is only allowed for a recording: leave it out, or name a recording."
+                "--at-stamps-of is only allowed for a recording: leave out --at-stamps-of, or name "
+                "a recording."
             )
         stamps = frames.recording.headers(options.stamps_of).stamps
         return Moments(*ends, stamps=stamps, words=f"at the stamps of '{options.stamps_of}'")
@@ -189,5 +190,7 @@ def _span(frames: Frames, first: At | None, last: At | None) -> tuple[Stamp | No
         )
     if end is not None and end < begin:
         begins = At(begin, is_stamp=True)
-        raise UsageError(f"{visible(frames.label)} begins at {begins}: --to {last} is before that.")
+        raise UsageError(
+            f"{visible(frames.label)} begins at {begins}: --to {last} is before this start."
+        )
     return start, end

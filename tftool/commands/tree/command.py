@@ -114,7 +114,7 @@ def run(connection: Connection, options: TreeOptions) -> ExitStatus:
             options.watch and is_drawn_at_once,
             "--watch draws on the terminal: leave out --format, --json, -o and --at.",
         ),
-        (options.force and options.output is None, "--force is only allowed with -o FILE: add it."),
+        (options.force and options.output is None, "--force is only allowed with -o: add -o FILE."),
         (
             options.run_for is not None and not options.watch,
             "--for is only allowed with --watch: without --watch the tree is written once.",

@@ -266,7 +266,7 @@ def run(connection: Connection, options: ViewOptions) -> ExitStatus:
             raise UsageError("With -o, the file contains all transforms: leave out --cache-time.")
         return _write(connection, options, options.output)
     if options.force:
-        raise UsageError("--force is only allowed with -o FILE: add it.")
+        raise UsageError("--force is only allowed with -o FILE: add -o FILE.")
     # Imported here, because a file needs no server, and websockets is slow to import.
     from tftool.screens.browser.server import PageServer
 

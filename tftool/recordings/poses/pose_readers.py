@@ -140,7 +140,10 @@ def read_kitti_calibration(file: PoseFile) -> list[PoseLink]:
     named |= {"Tr_imu_velo": (VELODYNE, "imu")}
     links += [_still(*pair, found[key]) for key, pair in named.items() if key in found]
     if not links:
-        raise InputError(f"'{file.path}': expected P0: to P3:, Tr: or R: and T:, found none.")
+        raise InputError(
+            f"'{file.path}': expected a line P0: to P3:, a line Tr:, or the lines R: and T:, "
+            "but found none."
+        )
     return file.renamed("links", links)
 
 

@@ -120,7 +120,9 @@ def find_launch_file(workspace: Workspace, words: Sequence[str]) -> tuple[Path, 
         return file_of(workspace, first), rest
     folder = workspace.share(first)
     if not rest or ":=" in rest[0]:
-        raise UsageError(f"which launch file of package '{first}'? {_listed(folder)}")
+        raise UsageError(
+            f"no launch file of package '{first}' is named: add its name. {_listed(folder)}"
+        )
     for below in ("launch", "."):
         path = folder / below / rest[0]
         if path.is_file():
@@ -132,7 +134,7 @@ def find_launch_file(workspace: Workspace, words: Sequence[str]) -> tuple[Path, 
 
 def _listed(folder: Path) -> str:
     found = sorted(one.name for one in (folder / "launch").glob("*") if one.suffix in FILES)
-    return f"It has {', '.join(found)}." if found else "It has none in its folder 'launch'."
+    return f"The package has {', '.join(found)}." if found else "Its folder 'launch' has none."
 
 
 def arguments_of(words: Sequence[str]) -> dict[str, str]:
@@ -145,7 +147,7 @@ def arguments_of(words: Sequence[str]) -> dict[str, str]:
     for word in words:
         name, found, value = word.partition(":=")
         if not found or not name:
-            raise UsageError(f"'{word}' is no launch argument: write name:=value")
+            raise UsageError(f"'{word}' is not a launch argument: write name:=value")
         given[name] = value
     return given
 

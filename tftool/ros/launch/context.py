@@ -124,7 +124,8 @@ class LaunchContext:
         """
         if len(self.files) >= DEEPEST:
             raise UsageError(
-                f"'{path}' is included {DEEPEST} deep: check whether it includes itself"
+                f"'{path}' is nested in {DEEPEST} included launch files: check whether the file "
+                "includes itself"
             )
         self.files = (*self.files, path.absolute())
 

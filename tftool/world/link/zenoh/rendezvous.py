@@ -254,8 +254,8 @@ def _make_private(path: Path) -> None:
         return
     if not stat.S_ISDIR(facts.st_mode) or facts.st_uid != os.getuid():
         raise LinkError(
-            f"{path} belongs to another user, so no session can use it: name another folder in "
-            f"{FOLDER_VARIABLE}"
+            f"{path} belongs to another user, so no session can use this folder: name another one "
+            f"in {FOLDER_VARIABLE}"
         )
     if facts.st_mode & 0o077:
         raise LinkError(

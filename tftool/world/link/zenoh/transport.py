@@ -347,8 +347,9 @@ def import_zenoh() -> Any:
         import zenoh
     except ImportError as error:
         raise LinkError(
-            "talking to other processes needs 'eclipse-zenoh', which is missing here "
-            f"({error}); hosting works without it: --host"
+            "connections to other processes need the package 'eclipse-zenoh', which cannot be "
+            "imported "
+            f"({error}): install the package, or host a session of this process alone with --host"
         ) from error
     return zenoh
 
@@ -378,7 +379,8 @@ def open_zenoh(zenoh: Any, reach: ZenohReach, place: Rendezvous | None) -> Any:
         reason = str(error).partition(" at /")[0]
         where = ", ".join([str(reach.config or ""), *reach.listen, *reach.connect]).strip(", ")
         raise LinkError(
-            f"the link cannot be opened{f' ({where})' if where else ''}: {reason}"
+            f"the connection to the session cannot be opened{f' ({where})' if where else ''}: "
+            f"{reason}"
         ) from error
 
 
