@@ -96,7 +96,11 @@ def pytest_unconfigure(config: pytest.Config) -> None:
 
 @pytest.hookimpl(hookwrapper=True)
 def pytest_make_collect_report(collector: pytest.Collector) -> Iterator[None]:
-    """Add a hint to a failed `import rclpy`; allow test files of equal names in two packages."""
+    """Prepare and report the import of a test file.
+
+    Unload another test file of the same name before the import. Add a hint to the report if `import
+    rclpy` fails.
+    """
     if _imports and isinstance(collector, pytest.Module):
         # Packages made from one template have test files of the same name. pytest imports a test
         # file by its name alone, and would reuse the first module.

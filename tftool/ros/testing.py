@@ -71,7 +71,7 @@ class RosRuntime:
             self._failure = error
 
     def ask(self, request: Callable[[], Any]) -> Any:
-        """Call `request` in the world's event loop; return the result, awaited if awaitable.
+        """Call `request` in the world's event loop; return the result, or await an awaitable one.
 
         Raises:
             NodeFailed: If a node, or a program started by the test, has failed.

@@ -435,7 +435,10 @@ def _parameters_in(tree: Any, node: str) -> Iterator[tuple[str, str, Any]]:
 
 
 def flatten(tree: Any, prefix: str = "") -> list[tuple[str, Any]]:
-    """Return the values in nested mappings as a list of (name, value); dots join the keys."""
+    """Return the values in nested mappings as a list of (name, value).
+
+    A name consists of the keys of all levels, joined by dots, after `prefix`.
+    """
     found: list[tuple[str, Any]] = []
     for key, value in tree.items() if isinstance(tree, Mapping) else ():
         if isinstance(value, Mapping):

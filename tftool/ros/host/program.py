@@ -289,11 +289,12 @@ class Program(Node):
     def looked_in_vain(self, *, must_keep_pace: bool = True) -> None:
         """Count a query that failed at once, such as a lookup, to recognise a loop that only polls.
 
-        Such a loop would stop simulated time, so tftool advances time a little after many queries.
+        On the simulated clock such a loop would stop time. After many queries, time therefore
+        advances by a small step.
 
         Args:
-            must_keep_pace: Whether these steps of time must stay short, because the loop may
-                execute callbacks or use transforms.
+            must_keep_pace: Whether these steps must stay short, because the loop may execute
+                callbacks or use transforms.
         """
         if must_keep_pace:
             self._ticks = 0

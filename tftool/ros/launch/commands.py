@@ -102,9 +102,9 @@ async def _chunk_of(stream: asyncio.StreamReader) -> bytes:
 
 
 async def lines_of(stream: asyncio.StreamReader) -> AsyncIterator[str]:
-    """Yield the lines of a command's output; a line may have up to 1 MiB.
+    """Yield the lines of a command's output; split lines longer than 1 MiB.
 
-    The stream's own method for lines raises an error at 64 KiB.
+    The method `readline` of the stream would raise an error at 64 KiB.
     """
     rest = b""
     while chunk := await _chunk_of(stream):

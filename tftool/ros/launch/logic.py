@@ -60,7 +60,10 @@ class _Several(Substitution):
         self.args = args
 
     def perform(self, context: LaunchContext) -> str:
-        """Return 'true' or 'false' for the combined values; evaluate all values, as in ROS 2."""
+        """Return 'true' or 'false' for the combined truth values.
+
+        As in ROS 2, all values are evaluated, even if the first value decides.
+        """
         return str(self.judge([_holds(context, value) for value in self.args])).lower()
 
 

@@ -187,7 +187,10 @@ class ExecuteProcess(Startable):
         self.shell = shell
 
     def execute(self, context: LaunchContext) -> Any:
-        """Start the command; run a Python program that uses rclpy inside tftool."""
+        """Start the command as a process.
+
+        A Python program that uses rclpy does not get a process: it runs inside tftool.
+        """
         words = [perform(context, word) for word in self.cmd]
         if not words or not words[0].strip():
             raise UsageError("ExecuteProcess needs a command: pass cmd=[…]")

@@ -17,10 +17,10 @@ def without_escapes(text: str) -> str:
 
 
 def _in_order(first: Any, others: Sequence[Any], *, strict: bool) -> Callable[..., Span]:
-    """Return a function that finds several items one after the other in an output.
+    """Return a function that finds several items, one after the other, in an output.
 
     Args:
-        first: Function that finds the first item; see `build_text_match`.
+        first: Function that finds the first item, such as a result of `build_text_match`.
         others: Functions that find the following items.
         strict: Whether each item must begin where the previous item ends.
     """

@@ -120,11 +120,10 @@ class Future:
         self._tell()
 
     def add_done_callback(self, callback: Callable[[Any], object]) -> None:
-        """Call `callback` with this future when the future is done.
+        """Call `callback` with this future when the future is done, or now if it is done already.
 
-        As in ROS 2, the future's executor calls `callback` as a task. Without an executor, the
-        thread that completes the future calls it. If the future is already done, the call is
-        scheduled at once.
+        As in ROS 2, the future's executor calls `callback` as a task. A future without an executor
+        calls `callback` in the thread that completes the future.
         """
         self._add(callback, self._callbacks, self._call)
 

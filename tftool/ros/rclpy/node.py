@@ -248,7 +248,10 @@ class Node(NodeGraph, NodeParameters):
         clock: Clock | None = None,
         autostart: bool = True,
     ) -> Timer:
-        """Create a timer that calls `callback` once per period; the callback may be None."""
+        """Create a timer that calls `callback` once per period.
+
+        If `callback` is None, the timer calls nothing.
+        """
         if callback is None:
             self._warn_of_missing_callback(user_line(sys._getframe(1)))
         else:

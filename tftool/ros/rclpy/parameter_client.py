@@ -72,7 +72,7 @@ class AsyncParameterClient:
         depth: int | None = None,
         callback: Callback | None = None,
     ) -> Future:
-        """Request the names of the parameters below some prefixes; by default all names."""
+        """Request the names of the parameters below one of the prefixes; by default all names."""
         return self._ask("ListParameters", callback, prefixes=prefixes or [], depth=depth or 0)
 
     def get_parameters(self, names: list[str], callback: Callback | None = None) -> Future:
@@ -190,7 +190,7 @@ class ParameterEventHandler:
 
     @staticmethod
     def get_parameter_from_event(event: Any, parameter_name: str, node_name: str) -> Any:
-        """Return the message about one parameter of one node in an event, or None."""
+        """Return the message about a node's parameter in an event; None if there is no message."""
         if event.node != node_name:
             return None
         told = ParameterEventHandler.get_parameters_from_event(event)

@@ -69,7 +69,7 @@ class QoSIncompatibleInfo(NamedTuple):
 
 
 class QoSMatchedInfo(NamedTuple):
-    """Numbers of matched endpoints since the start and at present, each with the change."""
+    """Numbers of matched endpoints, since the start and at present, with the changes of both."""
 
     total_count: int = 0
     total_count_change: int = 0

@@ -73,9 +73,9 @@ def _count(text: str) -> int:
 
 
 def _expression(text: str) -> Callable[[Any], bool]:
-    """Return a function that evaluates an expression of the option --filter for a message.
+    """Return a function that evaluates the expression of the option --filter for a message.
 
-    In the expression, `m` is the message.
+    In the expression, the name `m` means the message.
     """
     try:
         code = compile(text, "--filter", "eval")

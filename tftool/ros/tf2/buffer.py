@@ -77,7 +77,7 @@ class ConvertRegistration:
         _to_msg[key] = callback
 
     def add_convert(self, key: tuple[Any, Any], callback: Callable[[Any], Any]) -> None:
-        """Register `callback`, which converts between the two types in `key`: (from, to)."""
+        """Register `callback`, which converts the first type in `key` to the second type."""
         _convert[key] = callback
 
     def get_from_msg(self, key: Any) -> Callable[[Any], Any]:
@@ -89,7 +89,7 @@ class ConvertRegistration:
         return _of(_to_msg, key)
 
     def get_convert(self, key: tuple[Any, Any]) -> Callable[[Any], Any]:
-        """Return the function that converts between the two types in `key`: (from, to)."""
+        """Return the function that converts the first type in `key` to the second type."""
         return _of(_convert, key)
 
 
