@@ -212,7 +212,7 @@ class Timeline:
         return self._transforms.edges[number]
 
     def senders(self, places: npt.NDArray[np.int64]) -> tuple[Indexes, tuple[str, ...]]:
-        """Return each message's publisher, as an index into the publishers' names, and the names.
+        """Return the publisher of each message as an index, and the publishers' names by index.
 
         A publisher whose node is not recorded has the name of its topic.
         """

@@ -299,9 +299,9 @@ class BlockArrays:
         """Find the interval of each time in each edge, and the fractions for interpolation.
 
         Returns:
-            For each edge its intervals and four arrays with one entry per time: the index of the
-                interval, the fraction of the translation, the fraction of the rotation, and the
-                factor for `rotate`.
+            For each edge, the intervals and four arrays with one item per time: index of the
+            interval, fraction of the translation, fraction of the rotation, and factor for
+            `rotate`.
         """
         count = len(edges)
         if not count:

@@ -301,7 +301,7 @@ class _Job:
     # Databases
 
     def _changed_in_place(self) -> list[Sqlite]:
-        """Return the input databases if single rows can be updated; else an empty list."""
+        """Return the input databases if rows can be updated in copies; else an empty list."""
         tapes = [tape for tape in self._tapes if isinstance(tape, Sqlite)]
         alike = len(tapes) == len(self._tapes) and self._container == "db3"
         one_to_one = self._by_tape or (len(tapes) == 1 and not self._edits.split_every)
@@ -332,7 +332,7 @@ class _Job:
         self._changer.counts = Counter()
 
     def _path_in(self, part: Path, number: int) -> Path:
-        """Return the path of the output file with a number, from 0."""
+        """Return the path of the output file `number`, counted from 0."""
         if not self._is_folder:
             return part
         suffix = container_named(self._container).suffix

@@ -114,7 +114,7 @@ class Rosbag1Writer(ChunkedWriter):
         return number
 
     def _add_connection(self, number: int, topic: bytes, header: bytes) -> None:
-        """Register a connection by the connection header that its publisher sent."""
+        """Register a connection from the topic, and the connection header of the publisher."""
         head = {"op": CONNECTION, "conn": U32.pack(number), "topic": topic}
         self._channel_records[number] = record(head, header)
 
