@@ -446,7 +446,7 @@ def _file_of(module: ModuleType) -> Path:
 
 
 def _place(file: str | None, folders: Iterable[str] | None) -> Path:
-    """Return `file`, the file of a module, or the first of `folders` if a package has no file."""
+    """Return the file of a module; for a package without a file, return its first folder."""
     return Path(file or next(iter(folders or ()), ""))
 
 

@@ -75,7 +75,7 @@ class Launch(Node):
         contained: bool = False,
         keep_alive: bool = False,
     ) -> None:
-        """Read the launch file, if `what` is a path; `run` executes the description.
+        """Read the launch file, if `what` is a path; the method `run` executes the description.
 
         Args:
             world: World in which the nodes run.
@@ -85,9 +85,9 @@ class Launch(Node):
             say: Function called with level, program and text of each log line of the launch.
             context: State of the launch; None for a new state.
             name: Name of the launch's own node.
-            contained: Whether a user's program started this launch. An error in the description
-                then ends only the launch, not the world. Simulated time then advances with real
-                time during a system command; otherwise simulated time stops during a short command.
+            contained: Whether a user's program started this launch. If true, an error in the
+                description ends only the launch, not the world, and simulated time advances with
+                real time while a system command runs.
             keep_alive: Whether the launch continues after its last process has ended.
 
         Raises:

@@ -147,7 +147,7 @@ class NodeSeat:
         return entity
 
     def forget(self, entity: Any) -> bool:
-        """Close an entity and remove it from the node; return False for another node's entity."""
+        """Close an entity and remove it from the node; return False if it was removed before."""
 
         def drop() -> bool:
             if entity not in self.entities:
