@@ -22,6 +22,9 @@ CHECKS = [
     [*PYTHON, "tests.prose"],
 ]
 TYPES = [*PYTHON, "mypy"]
+# One process compiles all modules and finds tests that cannot be imported. Without it, each of the
+# workers compiles what no other has stored yet: 135 seconds of processor time in place of 98.
+COLLECT = [*PYTHON, "pytest", "--collect-only", "-qq"]
 
 
 def main(words: list[str]) -> int:
@@ -35,7 +38,7 @@ def main(words: list[str]) -> int:
     # The types need a minute of one processor, and the tests leave some of two free.
     with subprocess.Popen(TYPES, cwd=root, stdout=subprocess.PIPE, text=True) as types:
         status = 0
-        for command in [*CHECKS, tests]:
+        for command in [*CHECKS, *([] if words else [COLLECT]), tests]:
             print("$", *command, flush=True)  # noqa: T201
             status = subprocess.run(command, cwd=root, env=environment, check=False).returncode
             if status:
