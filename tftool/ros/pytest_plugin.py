@@ -40,13 +40,13 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_load_initial_conftests(early_config: pytest.Config) -> None:
-    """With `--ros-free`, make ROS 2's modules importable before the first conftest.py."""
+    """Make ROS 2's modules importable before the first conftest.py, if `--ros-free` is given."""
     if getattr(early_config.known_args_namespace, "ros_free", False):
         _provide(early_config.rootpath)
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """With `--ros-free`, register the plugin for launch tests."""
+    """Register the plugin for launch tests, if `--ros-free` is given."""
     if config.getoption("--ros-free"):
         from tftool.ros import launch_plugin
 
@@ -162,6 +162,6 @@ def ros_runtime() -> Iterator[Any]:
 
 @pytest.fixture(autouse=True)
 def _ros_free(request: pytest.FixtureRequest) -> None:
-    """With `--ros-free`, give every test the fixture `ros_runtime`."""
+    """Use the fixture `ros_runtime` in every test, if `--ros-free` is given."""
     if request.config.getoption("--ros-free"):
         request.getfixturevalue("ros_runtime")

@@ -71,7 +71,9 @@ class RosRuntime:
             self._failure = error
 
     def ask(self, request: Callable[[], Any]) -> Any:
-        """Call `request` in the world's event loop; return the result, or await an awaitable one.
+        """Call `request` in the world's event loop and return the result.
+
+        If the result is awaitable, the event loop awaits it first.
 
         Raises:
             NodeFailed: If a node, or a program started by the test, has failed.

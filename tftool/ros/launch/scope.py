@@ -206,7 +206,10 @@ class SetParametersFromFile(Action):
         self.filename, self.node_name = filename, node_name
 
     def execute(self, context: LaunchContext) -> Any:
-        """Set the file's parameters for the node `node_name`; without it, for the file's nodes."""
+        """Set the file's parameters in the scope.
+
+        The parameters apply to the node `node_name`, or by default to the nodes named in the file.
+        """
         path = perform(context, self.filename)
         if self.node_name is None:
             _keep(context, _PARAMETERS, path)

@@ -326,7 +326,7 @@ def assertDefaultStream() -> str:
 
 
 class SequentialTextChecker:
-    """Search for texts in an output, each after the text of the previous search."""
+    """Checker that finds texts in an output, each after the text found before."""
 
     def __init__(self, output: list[str]) -> None:
         """Prepare a search from the beginning of an output.

@@ -12,7 +12,7 @@ from tftool.world.node_parameters import answered
 
 
 class TransitionCallbackReturn(IntEnum):
-    """Return value of the callback of a lifecycle transition."""
+    """Value that the callback of a lifecycle transition returns."""
 
     SUCCESS = 97
     FAILURE = 98

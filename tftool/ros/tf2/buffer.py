@@ -47,7 +47,7 @@ class NotImplementedException(TransformException):
 
 
 class TransformRegistration:
-    """Registry of functions that transform data, by the type of the data."""
+    """Registry with a function for each type of data, which transforms data of this type."""
 
     def print_me(self) -> None:
         """Do nothing; the method exists in ROS 2."""
@@ -66,7 +66,7 @@ class TransformRegistration:
 
 
 class ConvertRegistration:
-    """Registry of functions that convert between types of data, by the types."""
+    """Registry of functions, each of which converts one type of data to another type."""
 
     def add_from_msg(self, key: Any, callback: Callable[[Any], Any]) -> None:
         """Register `callback`, which converts a message to an object of the type `key`."""
