@@ -397,8 +397,11 @@ def test_a_rotation_of_a_wrong_length_names_its_topic_and_its_effect():
     # 2 atan(0.68 / 0.72) is 86.7°.
     assert "ROS 2 normalises it to 86.7° about z" in finding.evidence[0]
     assert "--verbose /tf_static" in finding.fixes[0].text
+    # The rotation that was meant had its numbers typed with two digits.
+    assert finding.severity is Severity.NOTE
     made.kind = "ROS 1 bag"
     old = found(made, "bad-quaternion")
+    assert old.severity is Severity.WARNING
     assert "ROS 1 does not know the frame" in old.consequence
     assert "rostopic info /tf_static" in old.fixes[0].text
 
@@ -658,4 +661,4 @@ def test_a_transform_that_falls_behind_for_a_time_is_a_warning_beside_data_in_ti
         if told:
             finding = found(made, "stale-stamp")
             assert finding.message.startswith("block in world is dated up to 600 ms before")
-            assert "/scan, base_link in odom arrive in time" in finding.fixes[0].text
+            assert "/scan, base_link in odom arrived in time" in finding.fixes[0].text

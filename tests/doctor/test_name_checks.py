@@ -267,13 +267,17 @@ def test_messages_without_a_stamp_and_a_frame_were_not_meant_for_tf():
     assert found(made, "empty-frame").severity is Severity.NOTE
 
 
-def test_a_publisher_whose_messages_are_empty_is_a_note():
+@pytest.mark.parametrize(
+    ("node", "severity"),
+    [("/vicon", Severity.WARNING), ("/robot_state_publisher", Severity.NOTE)],
+)
+def test_a_publisher_whose_messages_are_all_empty_is_told(node, severity):
     made = robot()
     evidence = made.evidence()
     transforms = evidence.transforms
     logs = np.arange(100, dtype=np.int64) * seconds(0.05) + evidence.start
     sender = np.full(100, len(transforms.publishers), dtype=np.int32)
-    known = (*transforms.publishers, Publisher("/tf", "/vicon"))
+    known = (*transforms.publishers, Publisher("/tf", node))
     more = replace(
         transforms,
         log_times=np.concatenate([transforms.log_times, logs]),
@@ -281,5 +285,6 @@ def test_a_publisher_whose_messages_are_empty_is_a_note():
         publishers=known,
     )
     (finding,) = judge(replace(evidence, transforms=more)).findings
-    assert (finding.id, finding.severity) == ("empty-message", Severity.NOTE)
-    assert finding.evidence[0] == "/tf: 100 of 100 messages of /vicon"
+    assert (finding.id, finding.severity) == ("empty-message", severity)
+    assert finding.evidence[0] == f"/tf: all 100 messages of {node}"
+    assert finding.consequence == "frames that its publisher does not see are not in the recording"

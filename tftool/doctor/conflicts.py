@@ -107,9 +107,12 @@ def named_conflict(model: Model, track: Track, limits: Limits) -> Hit | None:
         apart, turned = track.apart(mine, nearest), track.turned(mine, nearest)
         step = float(np.median(track.apart(mine[1:], mine[:-1]))) if len(mine) > 1 else 0.0
         spin = float(np.median(track.turned(mine[1:], mine[:-1]))) if len(mine) > 1 else 0.0
+        least, turns = limits["metres"], limits["degrees"]
+        if _is_still(track, mine) and _is_still(track, theirs):
+            least, turns = limits["mounts"], limits["mount_degrees"]
         if (
-            float(np.median(apart)) > limits["metres"] + step
-            or float(np.median(turned)) > np.radians(limits["degrees"]) + spin
+            float(np.median(apart)) > least + step
+            or float(np.median(turned)) > np.radians(turns) + spin
         ):
             names = (publishers[first].node, publishers[second].node)
             return _conflict(track, names, (mine, nearest), Confidence.CERTAIN)

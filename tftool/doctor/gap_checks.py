@@ -12,7 +12,8 @@ from tftool.doctor.findings import STOPPED_PERIODS, Area, Fix, Hit, Severity
 from tftool.doctor.missing_joins import is_world
 from tftool.doctor.model import WARM_UP, Limits, Model, is_player
 from tftool.doctor.stamp_stream import BASES, NEVER, PLACED, Heard, Track, family, last_part, rate
-from tftool.doctor.wording import several, span
+from tftool.doctor.wording import metres, several, span
+from tftool.recordings.contract import Stamps
 
 check = checks_of(Area.COVERAGE)
 
@@ -47,7 +48,8 @@ def holes(track: Track, limits: Limits) -> list[tuple[int, int]]:
     "range in the frame or below it. In this case, a note for a frame without children, and "
     "for a part of a robot that did not move or has been silent for less than 60 s",
     headline="{where} {concerned:stops|stop} before the end",
-    detail="{edge}: last at {last:moment}, {before:span} before the end; came every {period:span}",
+    detail="{edge}: last stamp {last:moment}, which arrived {before:span} before the end; came "
+    "every {period:span}",
     consequence="lookups through it refuse from then on",
     causes=(
         "a node that crashed",
@@ -170,7 +172,11 @@ def is_detection(model: Model, track: Track) -> bool:
     "(variation above {variation:g}), and for a gap below {note:g} s. A note also if no scan, "
     "point cloud or range in the frame or below it has a stamp in the gap, unless the "
     "transform places a robot in the world. A transform that places a robot in the world is "
-    "also reported for {times:g} gaps of {again:g} s and {missed:g} periods or more",
+    "also reported for {times:g} gaps of {again:g} s and {missed:g} periods or more, and for a "
+    "gap of {lost:g} s and {lost_periods:g} periods or more across which it turns by "
+    "{turned:g}°. A transform with one exact period is also reported if a share of {share:g} "
+    "and {few:g} samples or more are missing. A note if it does not turn so far across one of "
+    "these gaps, and for a part of a robot that no sensor uses",
     headline="{where} {concerned:has a gap|have gaps}{often}",
     detail="{edge}: nothing from {begin:moment} to {end:moment} ({length:span}; usually every "
     "{period:span}){why}{beside}",
@@ -189,6 +195,11 @@ def is_detection(model: Model, track: Track) -> bool:
         "times": 10,
         "again": 0.2,
         "missed": 8,
+        "lost": 0.25,
+        "lost_periods": 15,
+        "turned": 45.0,
+        "share": 0.05,
+        "few": 20,
     },
     why="four messages lost in a row are no accident on a reliable topic; the usual "
     "timeouts of consumers cover shorter gaps",
@@ -203,6 +214,11 @@ def gap(model: Model, limits: Limits) -> Iterator[Hit]:
     for track in model.dynamic:
         again = _repeated(model, track, limits)
         found = known[track.edge] or again
+        if max((high - low for low, high in found), default=0) < limits["note"] * NANOSECONDS:
+            short = None if again else _turned_or_lossy(model, track, limits)
+            if short is not None:
+                yield short
+                continue
         if not found:
             continue
         begin, end = max(found, key=lambda hole: hole[1] - hole[0])
@@ -255,6 +271,72 @@ def gap(model: Model, limits: Limits) -> Iterator[Hit]:
             else Severity.WARNING,
             fixes=cures,
         )
+
+
+def _turned_or_lossy(model: Model, track: Track, limits: Limits) -> Hit | None:
+    """Return a hit about short gaps: across a large turn, or many in an exact period; else None."""
+    if len(track.by_stamp) < limits["samples"] or not track.period or track.wild.any():
+        return None
+    steps = np.diff(track.sorted_stamps)
+    wide = np.flatnonzero(2 * steps > 3 * track.period)
+    if not len(wide):
+        return None
+    turned = np.degrees(track.turned(track.by_stamp[wide + 1], track.by_stamp[wide]))
+    small = {**limits, "seconds": limits["lost"], "periods": limits["lost_periods"]}
+    long = (steps[wide] > _least_gap(track, small)) & (turned > limits["turned"])
+    place = int(np.where(long, turned, 0.0).argmax())
+    often, severity = "", Severity.WARNING
+    if not (long[place] and _places_robot(model, track, int(track.sorted_stamps[wide[place]]))):
+        often = _loss(track, steps, limits)
+        if not often:
+            return None
+        place = int(turned.argmax())
+        is_far = turned[place] > limits["turned"] and not model.is_minor(track)
+        severity = Severity.WARNING if is_far else Severity.NOTE
+    worst = int(wide[place])
+    begin, end = int(track.sorted_stamps[worst]), int(track.sorted_stamps[worst + 1])
+    moved = metres(float(track.strides[worst]))
+    silent = sorted({heard.topic for heard in model.heard if _is_silent(heard, begin, end)})
+    cure = _publisher_at(model, track, begin, end)
+    if silent:
+        cure = Fix("look at the source of all these topics, and at its link to the recorder")
+    return hit_of(
+        track,
+        {
+            "begin": begin,
+            "end": end,
+            "length": end - begin,
+            "often": often,
+            "period": track.period,
+            "also": [],
+            "beside": f"; at the same time: {several(silent)}" if silent else "",
+            "unusable": 0,
+            "why": f"; across it: {turned[place]:.3g}° and {moved}",
+        },
+        since=begin,
+        until=end,
+        count=1,
+        severity=severity,
+        fixes=(cure,),
+    )
+
+
+def _loss(track: Track, steps: Stamps, limits: Limits) -> str:
+    """Return how many samples are missing one by one from an exact period; "" for few samples."""
+    periods = steps / track.period
+    whole = np.rint(periods)
+    lost = whole[(whole > 1) & (whole <= limits["few"])]
+    missing = int((lost - 1).sum())
+    share = missing / (missing + len(steps))
+    is_exact = float(np.mean(np.abs(periods - whole) < _EXACT)) > 1.0 - _EXACT
+    if not is_exact or missing < limits["few"] or share < limits["share"]:
+        return ""
+    most = int(lost.max()) - 1
+    return f": {100 * share:.3g} % of its samples are missing, up to {most} in a row"
+
+
+_EXACT = 0.05
+"""Maximum deviation of an exact period, and maximum share of the steps that deviate more."""
 
 
 def _repeated(model: Model, track: Track, limits: Limits) -> list[tuple[int, int]]:

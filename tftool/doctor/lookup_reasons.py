@@ -46,6 +46,7 @@ class Cause(Enum):
     SINGLE = "single"
     NAME = "name"
     LOOP = "loop"
+    UNREAD = "wrong-type"
     WORKS = "works"
 
 
@@ -237,14 +238,16 @@ def _unread(known: TraceResult) -> Reason | None:
     The topic of the transform has a wrong type: see the check `wrong-type`.
     """
     for hit in wrong_type(known.trace.model):
-        for track in known.way or ():
-            if set(track.topics) <= set(hit.topics):
-                why = (
-                    f"a listener does not receive {track.name}: {', '.join(track.topics)} has the "
-                    f"type {hit.facts['type']}, and tf2 reads tf2_msgs/TFMessage only"
-                )
-                cure = "send them with a TransformBroadcaster"
-                return Reason(Cause.WORKS, (why,), (Remedy("publisher", cure),))
+        unread = [one for one in known.way or () if set(one.topics) <= set(hit.topics)]
+        if unread:
+            topics = sorted({topic for track in unread for topic in track.topics})
+            why = (
+                f"a listener does not receive {several([track.name for track in unread])}: "
+                f"{', '.join(topics)} {'has' if len(topics) == 1 else 'have'} the type "
+                f"{hit.facts['type']}, and tf2 reads tf2_msgs/TFMessage only"
+            )
+            cure = "send them with a TransformBroadcaster"
+            return Reason(Cause.UNREAD, (why,), (Remedy("publisher", cure),))
     return None
 
 
@@ -555,5 +558,6 @@ CHECK_OF = {
     Cause.SINGLE: "single-sample",
     Cause.NAME: "slash-twins",
     Cause.LOOP: "loop",
+    Cause.UNREAD: "wrong-type",
 }
 """Id of the check that finds each cause."""

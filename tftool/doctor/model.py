@@ -13,7 +13,7 @@ import numpy as np
 from tftool.base.common_ancestor import climbed, up_to_join
 from tftool.base.stamps import CACHE_TIME, SIMULATED_BELOW, Duration, Stamp, seconds
 from tftool.doctor.evidence import Evidence
-from tftool.doctor.ros_words import ros_words
+from tftool.doctor.ros_words import is_ros1, ros_words
 from tftool.doctor.stamp_stream import BASES, JOINT_STATES, WILD, Heard, Stream, Track, last_part
 from tftool.recordings.contract import Stamps
 from tftool.recordings.description_frames import prefix_of
@@ -54,6 +54,9 @@ class Settings:
 
 _ONE_CLOCK = seconds(0.05)
 """Maximum difference between two delays of one clock, nanoseconds."""
+
+_AHEAD = seconds(0.1)
+"""Maximum time by which a static_transform_publisher of ROS 1 dates ahead: its usual period."""
 
 SHIFT = seconds(2)
 """Minimum constant difference between stamps and reception that counts as a shift of the clock."""
@@ -497,6 +500,14 @@ class Model:
             # A late stream and its copies do not show the clock, so use the freshest stream.
             by = min(one for one in late if abs(one - by) < near)
         by = min([one for one in moving if LAP <= by - one < near], default=by)
+        others = [
+            one
+            for one, stream in zip(late, kept, strict=True)
+            if abs(one - by) < _AHEAD and not (isinstance(stream, Track) and not stream.moves)
+        ]
+        if is_ros1(self.evidence) and others:
+            # ROS 1 dates constants ahead: they tell the clock only if nothing else does.
+            by = max(by, min(others))
         self.shift = Shift(by, spread, len(alike), len(late))
         for stream in streams:
             is_wall = stream.stamps >= SIMULATED_BELOW

@@ -92,7 +92,8 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
     Severity.ERROR,
     rule="two publishers with at least {least:g} samples each send a transform at the same time, "
     "and their values differ by more than {metres:g} m (or {degrees:g}°) and by more than one "
-    "step. If the publishers are unknown, one of two patterns counts. First, {stamps:g} "
+    "step. If each publisher has one pose, {mounts:g} m (or {mount_degrees:g}°) are enough. If "
+    "the publishers are unknown, one of two patterns counts. First, {stamps:g} "
     "stamps or more have two values that differ so much, and one of the values interrupts the "
     "motion of the other. Second, the samples alternate between two tracks; a sample belongs "
     "to a track within {reach:g} m + {speed:g} m/s, where a radian counts as half a metre. "
@@ -132,6 +133,8 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
         "worse": 2.0,
         "slight": 0.05,
         "slight_degrees": 2.0,
+        "mounts": 0.0005,
+        "mount_degrees": 0.06,
     },
     why="a moving frame continues from its last pose, while the values of two publishers "
     "alternate. The speed limit separates two publishers from fast robots and "
@@ -520,10 +523,12 @@ def _source(track: Track) -> str:
     "empty-message",
     Severity.NOTE,
     rule="a publisher sends {times:g} messages or more without a transform, which are a share of "
-    "{share:g} or more of its messages",
+    "{share:g} or more of its messages. A warning if all its messages are empty, except for a "
+    "state publisher",
     headline="{topic} has {empty} messages without a transform",
-    detail="{topic}: {empty} of {of} messages{sender}",
-    consequence="frames that its publisher does not see are not updated meanwhile",
+    detail="{topic}: {told} messages{sender}",
+    consequence="frames that its publisher does not see are {missing:not in the recording|not "
+    "updated meanwhile}",
     causes=("a motion capture or a detector that does not see its objects",),
     limits={"times": 10, "share": 0.1},
     needs=("log times",),
@@ -540,12 +545,23 @@ def empty_message(model: Model, limits: Limits) -> Iterator[Hit]:
         of, without = int(np.count_nonzero(own & within)), int(np.count_nonzero(own & empty))
         if without >= max(1.0, limits["times"], limits["share"] * of):
             sender = f" of {publisher.node}" if publisher.node else ""
+            # A state publisher without a moving joint has nothing to send.
+            is_blind = without == of and "state_publisher" not in publisher.node
             yield Hit(
                 topics=(publisher.topic,),
                 publishers=(publisher.node,) if publisher.node else (),
+                severity=Severity.WARNING if is_blind else None,
+                fixes=(Fix("look whether its publisher saw an object at all"),) if is_blind else (),
                 since=int(transforms.log_times[own & empty].min()),
                 until=int(transforms.log_times[own & empty].max()),
                 count=without,
-                facts={"topic": publisher.topic, "empty": without, "of": of, "sender": sender},
+                facts={
+                    "topic": publisher.topic,
+                    "empty": without,
+                    "of": of,
+                    "told": f"all {of:,}" if without == of else f"{without:,} of {of:,}",
+                    "missing": 1 if without == of else 0,
+                    "sender": sender,
+                },
                 alone=True,
             )

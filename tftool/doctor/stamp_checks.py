@@ -371,11 +371,13 @@ def out_of_order(model: Model, limits: Limits) -> Iterator[Hit]:
     "stamps, or the topic from which the late topic is computed, arrives in time. A warning "
     "also for a transform with a latency above {odometry:g} s whose poses arrive in time in "
     "Odometry messages. A warning also if one sample in ten of a moving transform is later "
-    "than {tenth:g} s and {often:g} times the median, while other data arrives in time",
+    "than {tenth:g} s and {often:g} times the median, while other data arrives in time; and "
+    "if one in twenty of regular poses is later than {burst:g} s and {rarely:g} times the median",
     headline="{where} {concerned:is|are} dated {upto}{late:span} before {concerned:its|their} "
     "arrival",
     detail="{what}: {late:span} late ({of}){varies}",
-    consequence="lookups at the present time refuse; in rviz the frame lags or disappears",
+    consequence="lookups at the present time refuse, or use older data; in rviz the frame lags or "
+    "disappears",
     causes=(
         "the stamp is copied from an old measurement",
         "the publisher's clock is behind",
@@ -388,6 +390,8 @@ def out_of_order(model: Model, limits: Limits) -> Iterator[Hit]:
         "odometry": 0.2,
         "tenth": 0.25,
         "often": 4.0,
+        "burst": 0.2,
+        "rarely": 8.0,
     },
     needs=("log times",),
     because_of=(
@@ -417,14 +421,29 @@ def stale_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
             continue
         if heard.median_latency > limits["messages"] * NANOSECONDS and not stands_still(heard):
             yield _late(model, heard)
+    poses = [_falls_behind(model, heard, limits) for heard in model.heard]
+    # The latest of them is in the headline.
+    yield from sorted(filter(None, poses), key=lambda hit: -_most_late(hit))
 
 
-def _falls_behind(model: Model, track: Track, limits: Limits) -> Hit | None:
+def _most_late(hit: Hit) -> int:
+    late = hit.facts["late"]
+    assert isinstance(late, int)
+    return late
+
+
+def _falls_behind(model: Model, track: Track | Heard, limits: Limits) -> Hit | None:
     """Return a hit if some samples of a transform are late while other data arrives in time."""
-    if track.is_localisation or not track.moves or len(track.stamps) < _FEWEST_LATE:
+    if len(track.stamps) < _FEWEST_LATE:
         return None
-    usual, tenth = (int(one) for one in np.percentile(track.latency, (50, 90)))
-    if tenth < max(limits["tenth"] * NANOSECONDS, limits["often"] * usual):
+    if isinstance(track, Track):
+        share, told, least, times = 90, "one in ten", limits["tenth"], limits["often"]
+        is_judged = track.moves and not track.is_localisation
+    else:
+        share, told, least, times = 95, "one in twenty", limits["burst"], limits["rarely"]
+        is_judged = _is_regular_pose(track)
+    usual, tenth = (int(one) for one in np.percentile(track.latency, (50, share)))
+    if not is_judged or tenth < max(least * NANOSECONDS, times * usual):
         return None
     late = np.flatnonzero(track.latency >= tenth)
     others: list[Track | Heard] = [h for h in model.heard if h.is_spatial]
@@ -442,14 +461,24 @@ def _falls_behind(model: Model, track: Track, limits: Limits) -> Hit | None:
         "upto": "up to ",
         "late": int(track.latency.max()),
         "of": "at most",
-        "varies": f"; one in ten {span(tenth)} or more, usually {span(usual)}",
+        "varies": f"; {told} {span(tenth)} or more, usually {span(usual)}",
     }
     when = f"from {moment(int(track.logs[late[0]]))} to {moment(int(track.logs[late[-1]]))}"
-    cure = f"look at its publisher and the network {when}: {several(prompt, 3)} arrive in time"
-    return hit_of(
-        track, facts, severity=Severity.WARNING, count=len(late), fixes=(Fix(cure),), alone=True
-    )
+    cure = f"look at its publisher and the network {when}: {several(prompt, 3)} arrived in time"
+    alone, group = isinstance(track, Track), "poses"
+    given = {"severity": Severity.WARNING, "count": len(late), "fixes": (Fix(cure),)}
+    return hit_of(track, facts, alone=alone, group=group, **given)
 
+
+def _is_regular_pose(heard: Heard) -> bool:
+    """Whether a topic has poses at one rate, as of motion capture, by its type and its stamps."""
+    steps = np.diff(np.sort(heard.stamps))
+    is_pose = heard.type in ("geometry_msgs/PoseStamped", "geometry_msgs/PoseWithCovarianceStamped")
+    return is_pose and bool(np.mean(steps < 2 * np.median(steps)) > _REGULAR)
+
+
+_REGULAR = 0.95
+"""Share of the steps between stamps that are near the period of a regular topic."""
 
 _MEDIAN = {"upto": "", "of": "median"}
 

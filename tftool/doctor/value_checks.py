@@ -71,7 +71,8 @@ def nan_transform(model: Model, limits: Limits) -> Iterator[Hit]:
     "bad-quaternion",
     Severity.ERROR,
     rule="a quaternion's squared length is below 10⁻¹² (an error), or differs from 1 by more "
-    "than {length:g} (a warning)",
+    "than {length:g} (a warning). In ROS 2, a note if the length differs from 1 by {rounded:g} or "
+    "less, as for numbers that were typed with two digits",
     headline="{where} {concerned:has a rotation of|have rotations of a wrong} length{concerned:|,} "
     "{concerned:|such as }{length:.4g} instead of 1",
     detail="{edge}: {count} of {of} samples, first {numbers} (length {length:.4g}); {fate}",
@@ -85,7 +86,7 @@ def nan_transform(model: Model, limits: Limits) -> Iterator[Hit]:
     links=threads(
         "robomechanics/quad-sdk#346", "introlab/rtabmap_ros#153", "CCNYRoboticsLab/imu_tools#67"
     ),
-    limits={"length": 0.01},
+    limits={"length": 0.01, "rounded": 0.02},
     why="ROS 1 drops a transform with such a rotation, and ROS 2 normalises the rotation: the "
     "frame exists only in ROS 2",
 )
@@ -104,13 +105,17 @@ def bad_quaternion(model: Model, limits: Limits) -> Iterator[Hit]:
             if len(bad):
                 numbers = " ".join(f"{number:g}" for number in track.rotations[bad[0]].tolist())
                 fate, so = _fate(model, track, int(bad[0]), severity)
+                lengths = np.sqrt(squares[bad])
+                is_rounded = bool((np.abs(lengths - 1.0) <= limits["rounded"]).all())
+                if is_rounded and not is_ros1(model.evidence):
+                    severity = Severity.NOTE
                 yield hit_of(
                     track,
                     {
                         "count": len(bad),
                         "of": len(track.stamps),
                         "numbers": numbers,
-                        "length": float(np.sqrt(squares[bad[0]])),
+                        "length": float(lengths[0]),
                         "fate": fate,
                         "so": so,
                     },

@@ -12,6 +12,7 @@ from rich.text import Text
 from tftool.base.plain_text import MOST_LINES, visible, visible_lines
 from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, Stamp
 from tftool.doctor.explanation import Explanation
+from tftool.doctor.lookup_reasons import Cause
 from tftool.doctor.trace import LinkVerdict, TracedLink
 from tftool.doctor.wording import dated, span
 
@@ -90,6 +91,8 @@ def _headline(found: Explanation) -> Text:
     if found.stamp and base and not _other_clock(found.stamp, base):
         when = f"at {_since(found.stamp, base)} s"
     line = Text(visible(f"{found.source} in {found.target} {when}: "))
+    if found.cause is Cause.UNREAD:
+        return line.append("answers here, but no listener receives it", "yellow")
     if found.available:
         return line.append("answers", "green")
     line.append("refused", "bold red").append(_later(found))

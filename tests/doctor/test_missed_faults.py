@@ -1,0 +1,99 @@
+"""Tests of faults in public recordings that a reader of the data found before the doctor did."""
+
+import numpy as np
+import pytest
+
+from tests.doctor.judged import found, ids, turned
+from tests.doctor.robots import NO_TURN, START, Pose, Robot, robot, stands
+from tftool.base.stamps import seconds
+from tftool.doctor.findings import Severity
+from tftool.doctor.model import Model
+
+
+@pytest.mark.parametrize(("speed", "told"), [(4.5, ["gap"]), (1.0, [])])
+def test_a_short_gap_of_motion_capture_across_a_large_turn_is_told(speed, told):
+    made = Robot()
+    made.moving(
+        "world", "drone", 60.0, lambda t: (0.5 * t, 0.0, 1.0, *turned(speed * t)), without=(3, 3.3)
+    )
+    assert ids(made) == told
+    if told:
+        # From 2.983 s to 3.3 s.
+        assert "across it: 81.6° and 0.16 m" in found(made, "gap").evidence[0]
+
+
+@pytest.mark.parametrize(("speed", "severity"), [(3.0, Severity.WARNING), (0.1, Severity.NOTE)])
+def test_samples_that_are_missing_one_by_one_are_counted(speed, severity):
+    made = Robot()
+    for tick in range(200):
+        if tick % 10 and tick not in (101, 102):
+            pose = (0.0, 0.0, 0.0, *turned(speed * 0.2 * tick))
+            made.sent("imu", "sonar", 0.2 * tick, pose)
+    finding = found(made, "gap")
+    assert finding.severity is severity
+    # The first sample is missing before the recording: 21 of 199.
+    assert finding.message.endswith(": 10.6 % of its samples are missing, up to 3 in a row")
+
+
+def test_irregular_samples_are_not_counted_as_missing():
+    made = Robot()
+    at, random = 0.0, np.random.default_rng(1)
+    for tick in range(200):
+        at += float(random.uniform(0.1, 0.3))
+        made.sent("imu", "sonar", at, (0.0, 0.0, 0.0, *turned(0.5 * tick)))
+    assert "gap" not in ids(made, notes=True)
+
+
+def test_two_nodes_with_two_constant_poses_of_a_frame_are_told():
+    for apart, told in ((0.0025, ["publisher-conflict"]), (0.0002, [])):
+        made = robot()
+
+        def poses(z: float):
+            def pose(_t: float) -> Pose:
+                return (0.0, 0.0, z, *NO_TURN)
+
+            return pose
+
+        made.moving("leg", "foot", pose=poses(-0.069), offset=0.486, node="/state_publisher")
+        made.moving("leg", "foot", pose=poses(-0.069 + apart), node="/bridge")
+        made.moving("odom", "leg", node="/bridge")
+        assert ids(made) == told
+        if told:
+            finding = found(made, "publisher-conflict")
+            assert finding.severity is Severity.WARNING
+            assert "latencies -481 ms and 5 ms, 2.5 mm and 0° apart" in finding.evidence[0]
+
+
+def test_poses_that_come_late_in_bursts_are_a_warning_beside_data_in_time():
+    for late, told in ((1.0, ["stale-stamp"]), (0.1, [])):
+        made = robot()
+        for topic, longer in (("/robot_1", 0.0), ("/robot_2", 0.05)):
+            for begin, end, latency in ((0, 4, 0.009), (4, 4.6, late + longer), (4.6, 8, 0.009)):
+                kind = "geometry_msgs/PoseStamped"
+                made.hears(topic, "odom", 50.0, kind, begin=begin, end=end, latency=latency)
+        assert ids(made) == told
+        if told:
+            finding = found(made, "stale-stamp")
+            assert finding.message == (
+                "/robot_2, /robot_1 are dated up to 1.05 s before their arrival"
+            )
+            assert "arrived in time" in finding.fixes[0].text
+
+
+@pytest.mark.parametrize(("wait", "told"), [(0.094, ["sensor-outruns-tf"]), (0.084, [])])
+def test_scans_that_all_wait_for_a_listeners_usual_timeout_are_a_warning(wait, told):
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", latency=0.015 + wait)
+    made.hears("/scan", "laser")
+    assert ids(made) == told
+
+
+def test_constants_that_ros_1_dates_ahead_do_not_tell_a_shifted_clock():
+    made = Robot(log_from=START + 7e7, kind="ROS 1 bag")
+    for child in ("odom", "laser", "camera"):
+        made.moving("map", child, 20.0, stands, offset=0.05, latency=0.0)
+    made.moving("odom", "base_link", latency=0.5)
+    made.hears("/odom", "odom", 50.0, "nav_msgs/Odometry", latency=0.002)
+    shift = Model(made.evidence()).shift
+    assert shift is not None
+    assert shift.by == seconds(7e7) + seconds(0.002)
