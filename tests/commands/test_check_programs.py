@@ -178,7 +178,7 @@ def test_a_program_named_like_a_node_lives_beside_it(tftool, broken):
     [
         (["--run", "folower=x.py"], 2, "has no node 'folower'; did you mean 'follower'? (it has"),
         (["--run", "follower=x.py", "--launch", "pkg_tf carrot.launch.xml"], 2,
-         "no node 'follower' (it has none left"),
+         "no node 'follower' (it has none that can be replaced"),
         (["--run", "follower=gone.py"], 3, "cannot read 'gone.py': No such file"),
         (["--run", "follower=pkg_tf nothing"], 2, "package 'pkg_tf' has no executable 'nothing'"),
         (["--run", 'a "b'], 2, "no closing quotation"),

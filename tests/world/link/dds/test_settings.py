@@ -50,12 +50,15 @@ def test_the_users_own_configuration_is_taken_and_that_is_said():
 
     assert config.xml() == "file:///etc/dds.xml"
     assert config.told == (
-        "CYCLONEDDS_URI is set: DDS goes where that configuration says, not to the loopback alone.",
+        "CYCLONEDDS_URI is set: DDS uses the network of that configuration, not the loopback only.",
     )
 
 
 def test_peers_of_the_environment_are_named_where_they_are_not_gone_to():
-    assert "--dds-on 192.0.2.7 goes there" in network((), {"ROS_STATIC_PEERS": "192.0.2.7"}).told[0]
+    assert (
+        "--dds-on 192.0.2.7 connects to it"
+        in network((), {"ROS_STATIC_PEERS": "192.0.2.7"}).told[0]
+    )
 
 
 @pytest.mark.parametrize(

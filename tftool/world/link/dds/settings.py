@@ -106,8 +106,8 @@ def network(places: Iterable[str], environment: Mapping[str, str] | None = None)
             "unset the variable, or leave out --dds-on"
         )
     if config and not places and not confined:
-        told = "CYCLONEDDS_URI is set: DDS goes where that configuration says, not to "
-        return Network(config=config, told=(f"{told}the loopback alone.",))
+        told = "CYCLONEDDS_URI is set: DDS uses the network of that configuration, not "
+        return Network(config=config, told=(f"{told}the loopback only.",))
     told = ""
     # ROS_STATIC_PEERS alone does not open the network: only --dds-on does.
     if interfaces or peers:
