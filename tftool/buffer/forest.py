@@ -325,8 +325,8 @@ class FrameTree:
     def is_steady(self, walk: Walk) -> bool:
         """Whether the path that `walk` found is the path at every time with data.
 
-        Frames above the common ancestor may change their parents, if no path through these frames
-        can form a loop or become too long.
+        Also true if frames above the common ancestor change their parents, as long as no path
+        through these frames can form a loop or become too long.
         """
         frames = self.frames
         for number in (*walk.up, *walk.down):

@@ -21,7 +21,9 @@ BUILD: Final = "native" if IS_NATIVE else "pure Python"
 if TYPE_CHECKING or not IS_NATIVE:
 
     class Door:
-        """Fields that methods of `Buffer` read first; the C kernel, if built, defines this class.
+        """Base class of `Buffer` without the C kernel: the fields that every lookup needs.
+
+        If the C kernel is built, its class of this name takes the place of this class.
 
         Attributes:
             _paths: Paths of the solver.
