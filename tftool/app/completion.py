@@ -1,8 +1,8 @@
 """Completion in the shell: words offered at Tab, such as commands, options, frames, packages.
 
 The shell's script runs `tftool` with the words typed so far and `_TFTOOL_COMPLETE` set; each
-printed line is a proposal. Completion neither hosts nor joins a session: it reads the frames of a
-running session from files that the session's processes write.
+printed line is a proposal. Completion neither hosts nor joins a session. The frames of a running
+session are read from files that the processes of the session write.
 """
 
 import contextlib

@@ -180,7 +180,7 @@ def _own_options(words: list[str]) -> list[str] | None:
     """Process the options before the name of a command, such as --version.
 
     Returns:
-        The command and the words after the command; None if the options were all there is to do.
+        The command and the words after the command; None if only options were given.
 
     Raises:
         UsageError: If an option does not exist.

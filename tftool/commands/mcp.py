@@ -203,10 +203,10 @@ class Questions:
         part: str = "",
         skip: int = 0,
     ) -> str:
-        """Run a command on a file; return its output within the size limits.
+        """Run a command on a file; return the output within the size limits.
 
         Raises:
-            InputError: If the file may not be read here, or the command cannot read it.
+            InputError: If reading the file is not permitted, or the command fails.
         """
         file = self._file(source)
         cached = [] if file.endswith(".urdf") or command == "doctor" else ["--no-cache"]
@@ -248,7 +248,7 @@ class Questions:
         return fitted(answer[skip:] if isinstance(answer, list) else answer)
 
     def _file(self, source: str) -> str:
-        """Check that a file may be read; return its path below the root with a leading "./".
+        """Check that a file may be read; return the path below the root with a leading "./".
 
         With the leading "./", a file name such as "--help" is not parsed as an option.
 
@@ -280,7 +280,7 @@ class Questions:
         return word
 
     def _stays_inside(self, path: Path) -> bool:
-        """Return whether a file, and all files that a command reads with it, are below the root."""
+        """Return whether a file, and all further files that a command reads, are below the root."""
         places = (path, *_read_with(path.resolve()))
         return all(one.resolve().is_relative_to(self._root) for one in places)
 

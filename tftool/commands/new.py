@@ -169,7 +169,7 @@ def _refuse_existing(path: Path) -> None:
 
 
 def _files(package: str, example: str, *, exercise: bool) -> dict[str, str]:
-    """Return the files of a tutorial step's package: text by path in the package."""
+    """Return the files of a tutorial step's package, as a mapping from path to text."""
     nodes = EXAMPLES[example]
     sources = {f"{TEMPLATE}/{node}.py": node for node in nodes}
     step = (f"launch/{example}.launch.py", f"test/test_{example}.py", f"scenarios/{example}.yaml")
@@ -191,7 +191,7 @@ def _files_of_node(package: str, node: str) -> dict[str, str]:
 
 
 def _texts(package: str, nodes: Sequence[str], more: Sequence[str]) -> dict[str, str]:
-    """Return the files of a package: text by path in the package.
+    """Return the files of a package, as a mapping from path to text.
 
     Args:
         package: Name of the package.
@@ -214,7 +214,7 @@ def _texts(package: str, nodes: Sequence[str], more: Sequence[str]) -> dict[str,
 
 
 def _write(path: Path, files: dict[str, str]) -> None:
-    """Write all files of a package; if one cannot be written, write none."""
+    """Write all files of a package, or no file if one of the files cannot be written."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(prefix=".new-", dir=path.parent) as place:

@@ -165,7 +165,7 @@ def _ends(values: Floats) -> tuple[float, float]:
 
 
 def run(options: CalibrateOptions) -> ExitStatus:
-    """Run `tftool calibrate`."""
+    """Run `tftool calibrate`: solve the calibration; print, compare, draw and write the result."""
     refuse(
         (
             len(options.places) > 2,

@@ -149,14 +149,14 @@ class _Heard:
 
 
 class _Kept:
-    """Folder for the recordings of failed scenarios, each with its own file name."""
+    """Folder for the recordings of failed scenarios; each recording has a unique file name."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
         self._names: set[str] = set()
 
     def place(self, name: str) -> Path:
-        """Return the path for a scenario's recording, with a number if its name is already used."""
+        """Return the path for a scenario's recording, with a number after a name that is used."""
         plain = free = re.sub(r"[^0-9A-Za-z_-]", "_", name)
         number = 1
         while free in self._names:

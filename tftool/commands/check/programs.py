@@ -1,4 +1,4 @@
-"""Users' programs that replace nodes of a scenario while it is judged."""
+"""Users' programs that replace nodes of a scenario while the scenario is judged."""
 
 import re
 import shlex
@@ -26,7 +26,7 @@ _IN_PLACE = re.compile(r"([A-Za-z_]\w*)=(.*)", re.DOTALL)
 def judge_with(
     programs: Sequence[str], launched: str | None, *, force: bool, verbose: bool
 ) -> Iterator[Callable[..., Verdict]]:
-    """Yield a function that judges a scenario while the user's programs run in it.
+    """Yield a function that judges a scenario in which the user's programs run.
 
     Args:
         programs: Values of --run: "FILE", or "NODE=FILE" to run the file in place of a node.
@@ -63,7 +63,7 @@ def judge_with(
 
 
 def _entrant(text: str) -> Entrant:
-    """Parse [NODE=]WORDS, a value of --run, into a program and the node that it replaces."""
+    """Parse [NODE=]WORDS, a value of --run: the program, and the node that the program replaces."""
     match = _IN_PLACE.fullmatch(text)
     node, rest = (match[1], match[2]) if match else ("", text)
     return Entrant(_words("--run", rest), node)

@@ -132,7 +132,7 @@ def _measure_errors(
     pairs: tuple[Pair | None, Pair | None],
     step: PieceLength,
 ) -> None:
-    """Compute the errors of --ape and --rpe, print them, and draw them if requested."""
+    """Compute the errors of --ape and --rpe; print the errors and, if requested, draw plots."""
     first, second = sides
     found = trajectory_errors(
         first.buffer,

@@ -120,7 +120,7 @@ def run(connection: Connection, options: DoctorOptions) -> ExitStatus:
 
 
 def _examination(connection: Connection, options: DoctorOptions) -> Examination:
-    """Return the checks to run, their thresholds, and the part of the source to examine.
+    """Return the checks to run, the thresholds, and the part of the source to examine.
 
     Raises:
         UsageError: If a value of --limit is not ID.NAME=NUMBER.
@@ -172,7 +172,7 @@ def _show_steps(connection: Connection, options: DoctorOptions, scope: Scope) ->
 
     Raises:
         InputError: If a source cannot be read.
-        LookupException: If a frame of `--pair` is unknown, or its two frames are not connected.
+        LookupException: If a frame of `--pair` is unknown, or the two frames are not connected.
     """
     (ends,), _ = pairs_and_place([], [options.pair]) if options.pair else ([("", "")], None)
     objects = []

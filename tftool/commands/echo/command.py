@@ -183,7 +183,7 @@ def print_span(frames: Frames, options: EchoOptions, printer: Printer) -> None:
     first stamp on.
 
     Raises:
-        InputError: If the recording has no such topic.
+        InputError: If the recording does not have the topic.
         UsageError: If there are more times than can be looked up at once.
         TransformException: If every lookup fails.
     """

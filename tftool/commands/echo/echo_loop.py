@@ -27,7 +27,7 @@ from tftool.world.world import World
 def print_live(
     connection: Connection, options: EchoOptions, pair: FramePair, printer: Printer
 ) -> None:
-    """Look up a session's transform repeatedly; print each one, or redraw it on a terminal."""
+    """Look up a transform of a session repeatedly, and print or redraw each result."""
     session = open_session(connection, options.place, cache_time=options.cache_time)
     count = 1 if options.once else options.count
     redraws = count is None and not printer.for_programs and can_redraw()
@@ -53,7 +53,7 @@ def print_live(
 
 
 class LivePrinter:
-    """Printer that replaces the previous transform on the terminal."""
+    """Printer that draws each transform in place of the previous transform on the terminal."""
 
     def __init__(
         self, redrawing: Redrawing, pair: FramePair, precision: int, with_distance: bool

@@ -1,7 +1,8 @@
 """Processing of many recordings in one process, several processes, or a cluster.
 
 Each variant is an executor of `concurrent.futures`. Results are rows of a table. A recording that
-cannot be read also gets a row. A recording that crashes its process is tried again alone.
+cannot be read also gets a row. After the crash of a process, each recording that may have caused
+the crash is tried again in a new process.
 """
 
 import glob
@@ -263,7 +264,7 @@ class Inventory(FleetTask):
 def sweep(
     sources: Sequence[str], output: RowFile | None, workers: Workers, task: FleetTask
 ) -> tuple[dict[str, int], list[Row]]:
-    """Run a task on many recordings, and write the rows of each recording when it is finished.
+    """Run a task on many recordings; write the rows of a recording when the recording is finished.
 
     Args:
         sources: Paths or URLs; a recording that already has rows in `output` is skipped.
@@ -272,7 +273,7 @@ def sweep(
         task: Task to run on each recording.
 
     Returns:
-        Number of recordings by outcome, and a list of all rows, which is empty with an output file.
+        Number of recordings by outcome; list of all rows, empty if `output` is given.
     """
     from rich.console import Console
     from rich.progress import (
@@ -398,8 +399,8 @@ def _alone(source: str, task: FleetTask) -> list[Row]:
 def expanded(words: Sequence[str]) -> list[str]:
     """Expand files, folders, globs and URLs into a list of recordings without duplicates.
 
-    A file that matches a glob is included if its suffix is that of a recording, even if the file
-    cannot be read.
+    A file that matches a glob is included if the file has the suffix of a recording, even if the
+    file cannot be read.
 
     Raises:
         InputError: If a glob or web folder has no matches, or cannot be listed.
@@ -442,7 +443,7 @@ def _is_recording(path: str) -> bool:
 
 
 def told(counts: dict[str, int]) -> str:
-    """Format the number of recordings of each outcome as text."""
+    """Return the numbers of recordings by outcome as text: "3 with errors, 12 fine"."""
     words = {
         "error": "with errors",
         "warning": "with warnings",

@@ -61,7 +61,7 @@ class RowFile:
             path: Path of the file, whose suffix selects the format: .jsonl, .csv or .parquet.
             columns: Names and types of the columns.
             judged: Names of the columns of existing rows that `earlier` returns.
-            resume: Whether to keep existing rows and append to them.
+            resume: Whether to keep existing rows and append new rows.
 
         Raises:
             UsageError: If the suffix is unknown, or an optional package is not installed.

@@ -21,7 +21,7 @@ from tftool.robots.static_publishers import read_statics
 
 
 def run(connection: Connection, options: InfoOptions) -> ExitStatus:
-    """Run `tftool info`: print the contents of one file, or a line or row for each of several."""
+    """Run `tftool info`: print the contents of one file, or a summary of several files."""
     if options.output is None and (options.resume or options.scheduler):
         raise UsageError("--resume and --scheduler are only allowed with -o FILE: add -o FILE.")
     if (

@@ -287,7 +287,7 @@ class Arrivals:
     """Messages of a recording in the order in which a session would receive them."""
 
     def __init__(self, timeline: Timeline, buffer: Buffer) -> None:
-        """Start before the first message; static transforms are known from the start.
+        """Begin before the first message; static transforms count as received at the beginning.
 
         Args:
             timeline: Messages of the recording.

@@ -45,7 +45,7 @@ def drawn(
         options: Options of the command.
         found: Transforms over time.
         start: Time that is 0 on the axis.
-        console: Console to print on; the plot is 80 columns wide if the console is no terminal.
+        console: Console to print on; without a terminal, the plot is 80 columns wide.
         margin: Number of columns that the plot leaves free.
         height: Number of lines; None for a suitable number.
         span: Seconds since `start` that the axis covers; None for all data.

@@ -49,7 +49,7 @@ _STEP = 1.5
 
 
 class PlotSight:
-    """Visible time span and hidden curves of a live plot; keys change both.
+    """Visible time span and hidden curves of a live plot, which the user changes with keys.
 
     Attributes:
         hidden: Numbers of the curves that are not drawn.
@@ -153,7 +153,7 @@ def _newest(
     console: Console,
     height: int,
 ) -> Text:
-    """Draw the visible time span, or report which data is still missing."""
+    """Return the plot of the visible time span, or a text that says which data is missing."""
     first, now = sight.span(world.clock.now())
 
     def arrived(target: str, source: str) -> Stamp:

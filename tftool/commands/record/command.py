@@ -48,7 +48,7 @@ _ERASE: Final = "\r\x1b[K"
 
 
 class RecordingRun:
-    """Loop that writes a recorder's messages to a file until the recording is to end."""
+    """Loop that writes a recorder's messages to a file until time, finding or user end the loop."""
 
     def __init__(
         self,

@@ -52,7 +52,7 @@ class _JsonLines:
             self.finish()
 
     def finish(self) -> None:
-        """Print the last document, after which the command printed no `---`."""
+        """Print the last document, if the command did not end the document by `---`."""
         if not self._lines:
             return
         try:

@@ -103,7 +103,7 @@ def _written(found: dict[str, Any], *, verbose: bool) -> str:
 
 
 def run(connection: Connection, options: SessionOptions) -> ExitStatus:
-    """Run `tftool session`: print who shares the session, and what is published."""
+    """Run `tftool session`: print the processes, nodes, topics and services of the session."""
     if options.place is not None:
         raise UsageError(
             f"'{visible(options.place)}' is not the address of a session: to show the session of "

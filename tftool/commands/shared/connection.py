@@ -56,7 +56,7 @@ class Mode(Enum):
 
 
 class Providers:
-    """Functions that create a command's clock and its connections to other processes.
+    """Functions that create a command's clock and connections to other processes.
 
     Tests replace these functions by passing an object of a derived class to `app.main`.
     """
@@ -85,7 +85,7 @@ class Providers:
         return FollowedClock()
 
     def link(self, options: "Options") -> "Link | None":
-        """Join other processes' session; return None if this process shares no world with them.
+        """Connect to the other processes of a session; return None for no connection.
 
         Raises:
             LinkError: If the link cannot be opened.
@@ -110,7 +110,7 @@ class FileOptions(TypedDict):
 class Connection:
     """Connection of a command to a session, according to the command's options.
 
-    Use a connection in a `with` block: at its end, the block closes every opened link and file.
+    Use a `Connection` in a `with` block, whose end closes every opened session and file.
 
     Attributes:
         command: Name of the command.
@@ -151,7 +151,7 @@ class Connection:
 
     @property
     def looks(self) -> bool:
-        """Whether the command only observes; a world hosted by such a command is not shared."""
+        """Whether the command only observes; the world of such a command is not shared."""
         return self.reach.awaits_others(hosts=self.kind.hosts_turtles)
 
     @property
@@ -166,12 +166,12 @@ class Connection:
         return Options(self.command, self.domain, self.reach, read_only)
 
     def open_link(self) -> "Link | None":
-        """Join the session of other processes until this connection is closed.
+        """Connect to the other processes of a session until this `Connection` is closed.
 
-        Return None if this process shares no world with them.
+        Return None if `Providers.link` returns None.
 
         Raises:
-            LinkError: If the session cannot be joined.
+            LinkError: If no connection is possible.
         """
         link = self.providers.link(self.options())
         if link is not None:
@@ -202,7 +202,7 @@ class Connection:
         return not REACHES[0].has_members(self.domain)
 
     def keep(self, opened: "Link | Frames") -> None:
-        """Register a session or opened frames to be closed together with this connection."""
+        """Register a session or opened frames to be closed together with this `Connection`."""
         self._opened.append(opened)
 
     def refuse_to_share(self, word: str | None) -> None:
@@ -353,25 +353,25 @@ def open_from(
 ) -> Frames:
     """Open the frames of FROM, which are closed together with the connection.
 
-    Without FROM, the command listens to the running session; if there is none, it plays the turtle
-    world. A running session has no past, so a time cannot be requested from it.
+    Without FROM, the command listens to the running session, or plays the scenario turtles if no
+    session runs. A running session does not store the past, so that --at is not possible.
 
     Args:
         connection: Connection of the command.
         place: FROM; None for the running session.
         lasting: Value of --for: nanoseconds to listen or to play.
         until: Time up to which a scenario is played, without --for; see `open_frames`.
-        margin: Seconds to play on after `until`.
+        margin: Further seconds to play after `until`.
         cache_time: Cache time of a scenario's or session's buffer.
         tells: Whether to print notes about unusual facts of the frames.
-        shares: Whether to accept options such as --join although FROM is a file, because they are
-            meant for another source of the same command.
+        shares: Whether to accept options such as --join although FROM is a file, because another
+            source of the same command may be a session.
         watch: Function called with the world of a scenario or session before it runs.
         look: Function that returns lines about a session's frames, shown below the progress bar.
 
     Raises:
         InputError: If FROM names no source, or the source cannot be read.
-        LinkError: If a session was requested and there is none.
+        LinkError: If a session was requested, but no session runs.
         UsageError: If options do not fit the kind of FROM.
     """
     if lasting is not None:
@@ -418,10 +418,10 @@ def listen_from(
     watch: "Callable[[World], object] | None" = None,
     look: "Look | None" = None,
 ) -> Frames | None:
-    """Listen to the running session; return None if there is none. See `open_from`.
+    """Listen to the running session, as `open_from` does; return None if no session runs.
 
     Raises:
-        LinkError: If a session was requested and there is none.
+        LinkError: If a session was requested, but no session runs.
     """
     if connection.hosts_alone:
         return None

@@ -44,9 +44,9 @@ def evidence_from(
 
     Raises:
         InputError: If the word names no source, or the source cannot be read.
-        LinkError: If a session was requested and there is none.
-        UsageError: If the word names a robot description, or if only a part of a source that is not
-            a recording is to be examined.
+        LinkError: If a session was requested, but no session runs.
+        UsageError: If the word names a robot description, or if `scope` selects a part of a source
+            that is not a recording.
     """
     kind = None if word is None else named(word).kind
     is_recording = kind is not None and kind.is_recording

@@ -2,7 +2,7 @@
 
 A named scenario is always hosted. Without a name, the command joins the running session of this
 machine, or hosts a session that other processes can join. Processes that only watch do not form a
-session; they wait for the next host. If a session is hosted already, a named scenario is not
+session, but wait for the next host. If a session is hosted already, a named scenario is not
 shared, so that the two worlds never mix.
 
 A command that works in a running world (``echo``, ``monitor``, ``view``) opens a session::
@@ -60,7 +60,7 @@ def join_or_host(
     needs_turtles: bool = False,
     cache_time: Duration | None = None,
 ) -> JoinDecision:
-    """Join the running session, or prepare to host one; a lock excludes other processes.
+    """Join the running session, or return the connection through which to share a new session.
 
     Args:
         connection: Connection of the command.
@@ -69,7 +69,7 @@ def join_or_host(
         cache_time: Cache time of a joined world's buffer, nanoseconds.
 
     Raises:
-        LinkError: If a session was requested and there is none, or if no connection can be opened.
+        LinkError: If a session was requested, but no session runs, or no connection is possible.
         UsageError: If --join was given with a named world.
     """
     connection.refuse_to_join(word)
@@ -154,10 +154,9 @@ def open_session(
         by_hand: Whether a person drives, in place of the scenario's script.
 
     Raises:
-        InputError: If the word names no world, or its file cannot be read.
-        LinkError: If a session was requested and there is none.
-        UsageError: If the options ask to share a world with simulated time, which other processes
-            cannot follow.
+        InputError: If the word names no scenario, or the scenario cannot be read.
+        LinkError: If a session was requested, but no session runs.
+        UsageError: If options such as --join are given with simulated time, which cannot be shared.
     """
     _refuse_files(word)
     refuse_options_of_files(connection.robot, connection.recording, word)
@@ -222,7 +221,7 @@ def join_session(
 ) -> Session | None:
     """Join the running session; return None if no session runs and none was requested.
 
-    This is for commands whose own worlds run on simulated time, which other processes cannot join.
+    For commands that otherwise host a world on simulated time, which other processes cannot join.
 
     Raises:
         LinkError: If a session was requested (`--join`) and none runs.
@@ -264,9 +263,8 @@ def open_own_session(connection: Connection, *, simulated: bool, because: str) -
         because: Reason to print if a world is hosted.
 
     Raises:
-        LinkError: If a session was requested and there is none.
-        UsageError: If the options ask to share a world with simulated time, which other processes
-            cannot follow.
+        LinkError: If a session was requested, but no session runs.
+        UsageError: If options such as --join are given with simulated time, which cannot be shared.
     """
     refuse_options_of_files(connection.robot, connection.recording, None)
     link = None

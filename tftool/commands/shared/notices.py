@@ -104,7 +104,7 @@ def tell_record(record: "LogRecord", *, label: str = "") -> None:
 
     Args:
         record: Log message.
-        label: Name of the program that logged it, if there are several.
+        label: Name of the program that has logged the message; "" to print no name.
     """
     line = visible_lines(str(record).rstrip())
     label = f"[{label}] " if label else ""

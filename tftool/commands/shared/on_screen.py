@@ -1,4 +1,4 @@
-"""Full-screen display of worlds and frames in the terminal, and whether it is possible."""
+"""Full-screen display of a world in the terminal, and a check whether the display is possible."""
 
 import os
 import sys
@@ -144,10 +144,10 @@ def run_app(
 
     Args:
         scene: Scene to show.
-        life: Coroutine that runs the world; it is cancelled when the user quits.
+        life: Coroutine that runs the world; cancelled when the user quits.
         driver: Node that receives the keys; None if no turtle can be driven.
         setting: Options of the screen.
-        idle: Node that draws while no key is pressed; None if there is none.
+        idle: Node that drives a turtle while no key is pressed; None without such a node.
 
     Returns:
         Name of the scenario that the user chose to show next; None if the user quit.

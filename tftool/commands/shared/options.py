@@ -35,7 +35,7 @@ _FRACTION = re.compile(r"[.,](\d+)")
 
 
 def finite(value: float | None) -> float | None:
-    """Return a number if it is finite.
+    """Check that a number is finite, and return the number; return None for None.
 
     Raises:
         typer.BadParameter: If the value is NaN, infinite, or above `MOST`.
@@ -46,7 +46,7 @@ def finite(value: float | None) -> float | None:
 
 
 def positive(value: float | None) -> float | None:
-    """Return a number if it is finite and above zero.
+    """Check that a number is finite and above zero, and return the number; None for None.
 
     Raises:
         typer.BadParameter: If the value is zero, negative, NaN or infinite, or above `MOST`.
@@ -57,7 +57,7 @@ def positive(value: float | None) -> float | None:
 
 
 def not_negative(value: float | None) -> float | None:
-    """Return a number if it is finite and zero or more.
+    """Check that a number is finite and not negative, and return the number; None for None.
 
     Raises:
         typer.BadParameter: If the value is negative, NaN or infinite, or above `MOST`.
@@ -110,7 +110,7 @@ def duration(check: Callable[[float | None], float | None]) -> Callable[[str | i
 
 
 def _nanoseconds(text: str) -> "tuple[int, Decimal]":
-    """Convert a text with seconds to nanoseconds: rounded to an integer, and exact.
+    """Convert a text with seconds to nanoseconds; return the rounded and the exact number.
 
     Raises:
         ValueError: If the text is not a number.
@@ -215,7 +215,7 @@ def option(
 
     Args:
         words: Text of the help.
-        names: Names of the option; without any, made from the field's name.
+        names: Names of the option; if none are given, the name is made from the field's name.
         default: Value if the option is not given; `...` for an option that must be given, and for
             an option inside `Annotated`.
         metavar: Name of the value in the help.
@@ -253,7 +253,7 @@ def seconds_option(
 
     Args:
         words: Text of the help.
-        names: Names of the option; without any, made from the field's name.
+        names: Names of the option; if none are given, the name is made from the field's name.
         default: Value in nanoseconds if the option is not given; see `option`.
         check: Check of the number of seconds.
         panel: Heading above the option in the help; None for the usual heading.

@@ -102,7 +102,7 @@ def pairs_and_place(words: list[str], given: list[str]) -> tuple[list[tuple[str,
         given: Values of --pair, TARGET:SOURCE.
 
     Raises:
-        UsageError: If the words are not pairs and one FROM.
+        UsageError: If the words have another form, or a value of --pair is not TARGET:SOURCE.
     """
     if len(words) > (1 if given else 3):
         raise UsageError(
@@ -176,7 +176,7 @@ def _span(frames: Frames, first: At | None, last: At | None) -> tuple[Stamp | No
     """Return the values of --from and --to as stamps; None for an option that was not given.
 
     Raises:
-        UsageError: If --from is after --to, or there is no data between them.
+        UsageError: If --from is after --to, or the source has no data in this span.
     """
     begin, over = frames.span
     start = None if first is None else first.stamp(begin)

@@ -16,7 +16,7 @@ LOG_WIDTH = 2000
 
 
 def line_width() -> int | None:
-    """Return the width of stdout in cells; None if it is not a terminal."""
+    """Return the width of stdout in cells; None if stdout is not a terminal."""
     return shutil.get_terminal_size().columns if sys.stdout.isatty() else None
 
 
@@ -26,8 +26,8 @@ def write(what: "RenderableType", *, end: str = "\n", is_wide: bool = True) -> N
     Args:
         what: Renderable to print.
         end: Text after the renderable.
-        is_wide: Whether lines may be up to `LOG_WIDTH` long if stdout is no terminal. Then a log
-            has each sentence in one line, and can be searched by line.
+        is_wide: Whether lines may be up to `LOG_WIDTH` long if stdout is not a terminal, so that a
+            log file has each sentence in one line.
     """
     from rich.console import Console
 
@@ -42,15 +42,16 @@ def write(what: "RenderableType", *, end: str = "\n", is_wide: bool = True) -> N
 
 
 def write_json(content: object, *, indent: int | None = 2) -> None:
-    """Print a value as JSON; raise an error for NaN and infinity, which JSON does not have."""
+    """Print a value as JSON; raise ValueError for NaN and infinity, which JSON does not have."""
     text = json.dumps(content, indent=indent, allow_nan=False, default=str)
     sys.stdout.write(f"{text}\n")
 
 
 def write_file(path: Path, content: str | bytes) -> None:
-    """Write a whole file, text as UTF-8; a pipe or device is written directly.
+    """Write bytes, or text as UTF-8, to a file.
 
-    The old file is replaced only when the new file is complete, so that a full disk loses nothing.
+    An existing file is replaced only when the new file is complete, so that a full disk loses no
+    data. A pipe or device is written directly.
 
     Raises:
         InputError: If the file cannot be written.

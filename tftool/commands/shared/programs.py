@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def workspace_here(target: str, *, verbose: bool) -> Workspace:
-    """Return the ROS packages in the current folder or in the workspace around it.
+    """Return the ROS packages below the current folder, or in the workspace around this folder.
 
     Args:
         target: File or package on the command line; packages near the file are preferred.

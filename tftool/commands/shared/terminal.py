@@ -108,7 +108,7 @@ def keyboard(pressed: Callable[[str], object]) -> Iterator[bool]:
     """Call `pressed` with every key pressed in the terminal, in a running event loop.
 
     Yields:
-        Whether keys are read: stdin must be a terminal, and the process in its foreground.
+        True if keys are read: if stdin is a terminal, and the process is in the foreground.
     """
     try:
         import termios
@@ -152,7 +152,7 @@ def keyboard(pressed: Callable[[str], object]) -> Iterator[bool]:
 
 
 def termios_error() -> type[BaseException]:
-    """Return the exception type for failed terminal settings; an unused type without termios."""
+    """Return the exception type of failed terminal settings; without termios, an unused type."""
     try:
         import termios
     except ImportError:
@@ -166,9 +166,9 @@ def can_redraw() -> bool:
 
 
 class Redrawing:
-    """Drawer that replaces the last picture on the terminal by the next one.
+    """Drawer that replaces the last picture on the terminal by the next picture.
 
-    Lines on stderr appear above the picture; before the first picture, they are not changed.
+    Lines on stderr appear above the picture; before the first picture, these lines are not changed.
     """
 
     def __init__(self, clock: Clock) -> None:
@@ -202,7 +202,7 @@ class Redrawing:
         self._undo()
 
     def _leave(self) -> None:
-        """Keep the last picture on the terminal; the next picture is drawn below it."""
+        """Keep the last picture on the terminal; the next picture is drawn below the last one."""
         if self._live is not None:
             self._live.stop()
             self._live = None

@@ -113,7 +113,7 @@ def _page_data(connection: Connection, options: ViewOptions) -> StandaloneData:
 
 
 def _robot_of(connection: Connection, frames: Frames, meshes: Sequence[Path]) -> ShownRobot | None:
-    """Return the robot of a description or a recording, with its meshes; None without a robot."""
+    """Return the robot of a description or a recording, with meshes; None without a robot."""
     robot = frames.robot
     if robot is None:
         return None

@@ -99,7 +99,7 @@ def recorded_tracks(recording: Recording, limits: Limits) -> list[DrawnTopic]:
 
 
 def tracks_named(name: str, limits: Limits) -> list[DrawnTopic]:
-    """Open the recording `name`, and return `recorded_tracks` of it; callable from any thread."""
+    """Open the recording `name`, and return the drawable topics; callable from any thread."""
     with open_recording(name) as recording:
         return recorded_tracks(recording, limits)
 

@@ -5,7 +5,7 @@ header as JSON, padded to a multiple of eight bytes; and the sections, to which 
 [offset, length], counted from the end of the header. Numbers are little-endian. `page/packed.js`
 reads the block.
 
-The encoding of each column of numbers is the one that deflates best; the header describes it:
+Each column of numbers has the encoding that is smallest after deflate. In the header, a column is:
 
   {"value": x}            every number is x
   {"bits": section}       doubles, each XORed with the double before it; the section has the first
@@ -41,7 +41,7 @@ Progress = Callable[[int, int], object]
 
 
 class TooLarge(Exception):
-    """Error for packed data larger than its limit."""
+    """Error that packed data is larger than the permitted size."""
 
 
 class PackedBlock:

@@ -1,12 +1,12 @@
 """Messages between the page and its server, defined once for Python and JavaScript.
 
 `REQUESTS` and `ANSWERS` contain the fields of every text message, `HEAD` and `NUMBERS` the layout
-of the binary message. Python reads requests and builds answers by them. For the page, `python -m
-tftool.screens.browser.page_messages` writes `page/messages.js`: the types of all messages, which
-TypeScript checks, and the decoder of the head.
+of the binary message. Python reads requests and builds answers according to these tables. For the
+page, `python -m tftool.screens.browser.page_messages` writes `page/messages.js`: the types of all
+messages, which TypeScript checks, and the decoder of the head.
 
-Times are seconds since the clock's epoch, which a float stores to the nanosecond for a hundred
-days; the epoch itself is a text.
+Times are seconds since the clock's epoch. For a hundred days, a float stores such a time to the
+nanosecond. The epoch is sent as text.
 """
 
 import json
@@ -258,7 +258,7 @@ def parse(message: str | bytes) -> PageRequest:
 
 
 def answer(kind: str, fields: Mapping[str, Any]) -> dict[str, Any]:
-    """Return a message for the page; its fields must be exactly those listed in `ANSWERS`."""
+    """Return a message for the page, with exactly the fields that `ANSWERS` lists."""
     known = ANSWERS[kind]
     needed = {name for name in known if not name.endswith("?")}
     assert needed <= fields.keys() <= {name.removesuffix("?") for name in known}, kind

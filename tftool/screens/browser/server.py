@@ -5,8 +5,8 @@ machine can reach that address too, so requests for frames need the secret in th
 page of another site must not read a robot's frames through a visitor's browser, so the headers Host
 and Origin must name this server.
 
-A page reports when it has drawn the last poses. A slow page skips the poses in between, because
-nothing is ever queued for a page.
+A page reports when it has drawn the last poses. A slow page skips poses, because only the
+newest poses wait to be sent.
 """
 
 import asyncio
@@ -116,7 +116,7 @@ class PageServer:
 
         Args:
             source: Clock and buffer of the frames.
-            port: Port to listen on; if it is in use, the next free port is taken. 0 for any port.
+            port: Port to listen on, or the next free port if the port is in use; 0 for any port.
             rate: Updates of the page per second.
             tell: Function called with sentences for the user.
             name: Name of the source, for a saved page.
@@ -182,12 +182,12 @@ class PageServer:
 
     @property
     def origin(self) -> str:
-        """Scheme, host and port of the page, without its secret."""
+        """Scheme, host and port of the page, without the secret."""
         return f"http://{HOST}:{self.port}"
 
     @property
     def url(self) -> str:
-        """Address of the page; it contains the secret, so it must not be logged."""
+        """Address of the page with the secret; the address must not be logged."""
         return self.address("/")
 
     def address(self, path: str) -> str:

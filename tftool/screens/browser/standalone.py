@@ -144,7 +144,7 @@ def _digest(script: str) -> str:
 
 
 def _inert(text: str) -> str:
-    """Check that a script or style cannot end its HTML element, and return it unchanged."""
+    """Check that a script or style cannot end its HTML element; return the text unchanged."""
     assert not re.search(r"</(script|style)|<!--", text, re.IGNORECASE)
     return text
 

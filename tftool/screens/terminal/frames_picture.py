@@ -208,7 +208,7 @@ class FrameTrails:
         return self._shown
 
     def until(self, fixed: str, frames: Iterable[str], at: Stamp) -> ColoredLines:
-        """Return the trails up to the past time `at`, from the samples in the buffer and before."""
+        """Return the trails up to the past time `at`, from the buffer and from stored positions."""
         ways = {}
         for frame in islice(frames, MOST_FRAMES):
             way = self._way(frame, fixed, at - REACH, at)

@@ -336,7 +336,7 @@ def header(title: str, moment: SceneMoment, rate: float, width: int, look: Look)
 def title_bar(
     title: str, elapsed: float, width: int, look: Look, *, behind: float = 0.0, rate: float = 1.0
 ) -> Text:
-    """Return a line with a title, the seconds since the start, and "live" or the time back.
+    """Return a line with title, seconds since the start, and "live" or the age of the shown time.
 
     Args:
         title: Title at the left.

@@ -108,7 +108,7 @@ INSET_WIDTH = 24
 
 
 class PlaneView:
-    """Drawing of pictures of frames into a panel of any size.
+    """Renderer of pictures of frames in a panel of any size.
 
     Attributes:
         camera: Camera that determines the visible part of the plane.

@@ -77,7 +77,7 @@ class RobotApp(PanelApp):
         link: Link whose pose is shown; None for the link farthest from the root.
         prefix: Prefix of the names of all links.
         setting: Options of the screen.
-        solids: Shapes of the links; None if they are not drawn.
+        solids: Shapes of the links; None to draw no shapes.
         missing: Sentences on why some shapes are not drawn.
     """
 

@@ -361,7 +361,7 @@ class Scene:
         seen: _Seen,
         at: Stamp | None,
     ) -> PlanePicture:
-        """Return the picture with the turtles' field, in the parent of the turtles' frames."""
+        """Add the turtles' field to the picture, in the parent frame of the turtles' frames."""
         parents = [
             parent
             for turtle in seen.turtles
@@ -426,7 +426,12 @@ def _sides(x: float, y: float) -> list[str]:
 
 
 def _frameless(turtle: _SeenTurtle, pose: Transform) -> PlaneFrame:
-    """Return a turtle without a frame for drawing, at the position in the simulator."""
+    """Return a turtle that has no frame as an element of the picture.
+
+    Args:
+        turtle: Position of the turtle in the simulator.
+        pose: Pose of the turtles' field in the picture.
+    """
     there = pose @ transform_from_pose(turtle.x, turtle.y, turtle.theta)
     ahead = there.rotate((1.0, 0.0, 0.0))[:2]
     return PlaneFrame(

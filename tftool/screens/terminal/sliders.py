@@ -198,7 +198,7 @@ class Sliders:
 
 
 def slide_range(joint: RobotJoint) -> tuple[float, float]:
-    """Return the smallest and largest position of a slider: the limits, or a full turn without."""
+    """Return the smallest and largest position of a slider: the joint's limits, else -π and π."""
     return joint.limits or (-math.pi, math.pi)
 
 

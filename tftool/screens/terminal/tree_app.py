@@ -119,7 +119,7 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         setting: Options of the screen.
 
     Attributes:
-        solids: Shapes of a robot among the frames, once its description is known.
+        solids: Shapes of a robot; None until a robot description arrives.
     """
 
     CSS = f"""{FRAME_CSS}
@@ -199,7 +199,7 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         return HEADINGS + 2 + (0 if self._seen is None else len(self._seen[0].frames))
 
     def _rows_above(self) -> int:
-        """Return the number of rows between the title bar and the tree, for subclasses."""
+        """Return the number of rows that a subclass shows above the tree."""
         return 0
 
     @property

@@ -147,7 +147,7 @@ class TurtleApp(PanelApp):
     # Building
 
     def compose(self) -> ComposeResult:
-        """Create the panels of this screen; `_arrange` sets their sizes."""
+        """Create the panels of this screen; `_arrange` sets the sizes of the panels."""
         yield Panel("header", can_focus=False)
         with Container(id="body"):
             yield SpacePanel("field", "Field")
