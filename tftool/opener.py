@@ -200,7 +200,7 @@ def refuse_options_of_files(
     robot: DescriptionOptions, recording: RecordingOptions, word: str | None
 ) -> None:
     """Raise UsageError for an option of recordings or descriptions if FROM is another source."""
-    what = "The session that runs" if word is None else f"'{visible(word)}'"
+    what = "The running session" if word is None else f"'{visible(word)}'"
     robot.refuse(f"{what} is neither a robot description nor a recording")
     recording.refuse(f"{what} is not a recording")
     options_of(word or "").refuse(f"{what} is not a pose file")

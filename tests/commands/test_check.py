@@ -256,7 +256,7 @@ def test_without_a_scenario_it_says_how_it_is_used(tftool):
     result = tftool("check")
 
     assert result.status == 2
-    assert "no scenario is named: give its name or file, or a package" in result.err
+    assert "no scenario is given: write a name or a file, or a package" in result.err
 
 
 def test_a_reader_that_has_seen_enough_is_no_failure(scenarios):

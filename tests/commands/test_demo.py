@@ -241,9 +241,7 @@ def test_on_a_terminal_a_failing_node_is_named_on_stderr(tftool, on_terminal, mo
     assert result.err.count("\n") == 1
 
 
-@pytest.mark.parametrize(
-    ("term", "lacks"), [("xterm", ""), ("dumb", "TERM=dumb is one without a screen")]
-)
+@pytest.mark.parametrize(("term", "lacks"), [("xterm", ""), ("dumb", "TERM=dumb has no screen")])
 def test_a_terminal_is_where_all_three_streams_are(monkeypatch, term, lacks):
     class Screen:
         def isatty(self):
@@ -255,7 +253,7 @@ def test_a_terminal_is_where_all_three_streams_are(monkeypatch, term, lacks):
     assert onscreen.screen_lacks() == lacks
 
     monkeypatch.setattr("sys.stdin", None)
-    assert onscreen.screen_lacks() == (lacks or "stdin is none")
+    assert onscreen.screen_lacks() == (lacks or "stdin is not a terminal")
 
 
 def test_who_looks_on_is_told_why_there_is_no_screen(tftool, simulated, monkeypatch):
@@ -266,4 +264,4 @@ def test_who_looks_on_is_told_why_there_is_no_screen(tftool, simulated, monkeypa
 
     assert (quiet.status, quiet.err) == (0, "")
     assert watched.out == quiet.out
-    assert "TERM=dumb is one without a screen" in watched.err
+    assert "TERM=dumb has no screen" in watched.err

@@ -211,7 +211,7 @@ def test_info_of_a_text_file_and_of_a_scenario_by_its_name(tftool, tmp_path):
     assert unreadable.status == 3
     assert misused.status == 2
     for result in (unreadable, misused):
-        assert "is no recording and no robot description" in result.err
+        assert "is a scenario, not a recording or robot description" in result.err
 
 
 @pytest.mark.parametrize("words", [["view", "-o", "page.html"], ["tree"], ["echo", "map", "base"]])

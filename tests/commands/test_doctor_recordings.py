@@ -96,7 +96,7 @@ def test_what_the_file_holds_is_passed_over_and_half_a_line_is_done_again(
     result = tftool("doctor", *runs[:2], "-o", output, "--resume")
 
     assert result.out.startswith("1 recording: 1 with errors. ")
-    assert "(1 were in it already: " in result.out
+    assert "(1 were in the file already: " in result.out
     assert output.read_bytes() == whole
 
 

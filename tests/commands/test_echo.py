@@ -114,7 +114,7 @@ def test_a_name_that_is_no_frame_is_told(tftool, target, source, status, sentenc
 def test_what_was_meant_is_told_too(tftool):
     err = tftool("echo", "turtle1", "turtel2", "turtles", "--at", "2").err
 
-    assert err.count("Frames there are so far: turtle1, world, turtle2.") == 1
+    assert err.count("Existing frames so far: turtle1, world, turtle2.") == 1
     assert "Did you mean turtle2?" in err
 
 

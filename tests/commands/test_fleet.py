@@ -72,7 +72,7 @@ def test_parquet_has_a_row_a_finding_and_is_gone_on_with(tftool, fleet, tmp_path
     some = sorted(map(str, fleet.glob("day*/run*.mcap")))
     assert tftool("doctor", *some[:3], "-o", output).status == 1
     result = tftool("doctor", *some, "-o", output, "--resume")
-    assert "(3 were in it already: " in result.out
+    assert "(3 were in the file already: " in result.out
     table = parquet.read_table(output).to_pylist()
     assert ids_of(table) == {k: v for k, v in expected().items() if k != "cut.mcap"}
     found = next(row for row in table if row["id"] == "unknown-frame")
@@ -94,7 +94,7 @@ def test_what_the_file_held_already_counts_for_the_status(tftool, fleet, tmp_pat
 
     assert (first.status, again.status) == (1, 1)
     assert told.startswith("4 with errors")
-    assert f"({len(some)} were in it already: {told})" in again.out
+    assert f"({len(some)} were in the file already: {told})" in again.out
     assert tftool("doctor", *some, "-o", output, "--resume", "--fail-on", "never").status == 0
 
 
@@ -121,7 +121,7 @@ def test_rows_of_another_command_are_not_gone_on_with(tftool, fleet, tmp_path, f
         result = tftool(then, fleet / recording, "-o", output, "--resume")
 
         assert (result.status, result.out) == (3, "")
-        assert "it holds something else than such rows" in " ".join(result.err.split())
+        assert "the file has other contents than rows" in " ".join(result.err.split())
         assert output.read_bytes() == before
         output.unlink()
 
@@ -147,7 +147,7 @@ def test_rows_of_a_process_that_was_killed_become_part_of_the_table(tftool, flee
     # The interrupted run leaves the rows so far, and half of a row.
     (tmp_path / "found.parquet.part").write_bytes(left.read_bytes() + b'{"source": "ha')
     result = tftool("doctor", *some, "-o", tmp_path / "found.parquet", "--resume")
-    assert "(2 were in it already: " in result.out
+    assert "(2 were in the file already: " in result.out
     table = parquet.read_table(tmp_path / "found.parquet")
     assert set(table.column("source").to_pylist()) == set(some)
 
@@ -159,7 +159,10 @@ def test_names_that_are_no_text_are_in_every_file(tftool, tmp_path):
     for suffix in ("jsonl", "csv", "parquet"):
         output = tmp_path / f"found.{suffix}"
         assert tftool("doctor", strange, "-o", output).status == 0
-        assert "(1 were in it already: " in tftool("doctor", strange, "-o", output, "--resume").out
+        assert (
+            "(1 were in the file already: "
+            in tftool("doctor", strange, "-o", output, "--resume").out
+        )
     assert parquet.read_table(tmp_path / "found.parquet").num_rows == 1
 
 

@@ -40,7 +40,7 @@ def test_a_delay_looks_into_the_past_which_is_not_there_at_first(tftool, simulat
 
 
 def test_a_delay_beyond_what_is_remembered_is_told_with_what_helps(tftool, simulated):
-    sentence = "The buffer keeps 10 s, and has forgotten where turtle1 was 10 s ago: give "
+    sentence = "The buffer keeps 10 s, which is too short to look up turtle1 10 s ago: give "
 
     assert f"{sentence}--cache-time 11.\n" in tftool("follow", "--delay", "10", "--for", "1").err
     assert (

@@ -240,7 +240,7 @@ def test_a_frame_that_a_recording_has_not_is_refused_at_once(tftool, recording):
     result = tftool("echo", "world", "b", recording, "--once")
 
     assert result.status == 4
-    assert "Frames there are so far: a, world, laser" in result.err
+    assert "Existing frames so far: a, world, laser" in result.err
 
 
 def test_the_tree_of_a_recording_is_that_of_the_moment(tftool, recording):

@@ -75,7 +75,7 @@ def test_tf2_monitors_own_figures_can_be_had(tftool, simulated):
 @pytest.mark.parametrize(
     ("words", "status", "sentence"),
     [
-        (["turtle1"], 3, "For the chain between two frames, name both."),
+        (["turtle1"], 3, "To report on two frames, name both frames."),
         (["a", "b", "c", "d"], 2, "4 words are too many"),
         (["--for", "0"], 2, "0 is not a positive number."),
         (["--json", "--tf2"], 2, "choose one"),

@@ -54,8 +54,8 @@ def test_an_unknown_frame_is_answered_with_those_there_are(tftool, run, words, m
 
     result = tftool(words[0], "odom", "lazer", run, *words[1:])
 
-    hint = next(line for line in result.err.splitlines() if line.startswith("Frames there are: "))
-    named, _, meant = hint.removeprefix("Frames there are: ").partition(". ")
+    hint = next(line for line in result.err.splitlines() if line.startswith("Existing frames: "))
+    named, _, meant = hint.removeprefix("Existing frames: ").partition(". ")
     assert result.status == 4
     assert result.out == ""
     assert sorted(named.split(", ")) == ["arm", "base_link", "camera", "laser", "map", "odom"]
@@ -70,7 +70,7 @@ def test_the_frames_there_are_are_named_once_for_all_pairs(tftool, run, words, m
     result = tftool(words[0], *pairs, run, *words[1:])
 
     assert result.status == 4
-    (hint,) = (line for line in result.err.splitlines() if line.startswith("Frames there are: "))
+    (hint,) = (line for line in result.err.splitlines() if line.startswith("Existing frames: "))
     assert hint.endswith("Did you mean laser?")
 
 

@@ -42,7 +42,11 @@ def test_who_takes_over_from_another_is_no_rival(senders):
 
 
 @pytest.mark.parametrize(
-    ("frames", "told_last"), [(4, "So is 1 frame more."), (5, "So are 2 frames more.")]
+    ("frames", "told_last"),
+    [
+        (4, "1 more frame has several broadcasters."),
+        (5, "2 more frames have several broadcasters."),
+    ],
 )
 def test_many_rivalries_are_counted(frames, told_last):
     buffer = Buffer()

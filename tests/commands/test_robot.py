@@ -20,7 +20,7 @@ def test_a_robot_is_published_without_a_screen(tftool, simulated, robot):
 @pytest.mark.parametrize(
     ("words", "status", "told"),
     [
-        ([], 2, "The sliders need a terminal, and stdin is none: add --no-screen."),
+        ([], 2, "The sliders need a terminal, and stdin is not a terminal: add --no-screen."),
         (["--no-screen", "--follow", "--joint", "turn=1"], 2, "leave out --joint"),
         (["--no-screen", "--joint", "turm=1"], 2, "did you mean 'turn'?"),
         (["--no-screen", "--link", "lmap"], 2, "has no link 'lmap'; did you mean 'lamp'?"),

@@ -481,9 +481,9 @@ def test_a_wrong_command_line_is_refused_before_a_world_is_hosted(capsys, words,
 @pytest.mark.parametrize(
     ("words", "told"),
     [
-        (["--domain", "1"], "'--domain' after FILE goes to the node; tftool's own options stand"),
-        (["--listen=tcp/[::]:0"], "'--listen' after FILE goes to the node; tftool's own"),
-        (["-p", "a:=b"], "'-p a:=b' goes to the node as it is; ROS 2's arguments stand after"),
+        (["--domain", "1"], "'--domain' after FILE is passed to the node: write tftool's own"),
+        (["--listen=tcp/[::]:0"], "'--listen' after FILE is passed to the node: write"),
+        (["-p", "a:=b"], "'-p a:=b' is passed to the node unchanged: write ROS 2's arguments"),
         (["--rate", "5", "--ros-args", "-p", "a:=b"], ""),
     ],
 )

@@ -19,7 +19,7 @@ def test_without_a_terminal_teleop_asks_for_keys(tftool):
 
     assert result.status == 2
     assert result.err == (
-        "tftool: teleop reads keys from a terminal, and stdin is none. "
+        "tftool: teleop reads keys from a terminal, and stdin is not a terminal. "
         'Give the keys on the command line instead: --keys "up up left".\n'
     )
 

@@ -35,7 +35,7 @@ def test_without_a_source_it_shows_the_hosted_turtles(tftool):
 def test_a_chosen_moment_is_simulated_whatever_runs_here(tftool):
     result = tftool("tree", "--at", "0.5")
 
-    assert result.err == "A chosen moment is always simulated: hosting scenario 'turtles'.\n"
+    assert result.err == "A requested time is always simulated: hosting scenario 'turtles'.\n"
     assert result.out.startswith("Recorded at time: 1000.500000\n")
 
 

@@ -100,7 +100,7 @@ def test_a_frame_nobody_has_heard_of_is_hinted_at_once_there_are_others(world, c
     assert err.split("\n") == [
         'Waiting for c in a: Invalid frame ID "c" passed to canTransform argument source_frame'
         " - frame does not exist",
-        "Frames there are so far: a, world. --timeout SECONDS ends the wait.",
+        "Existing frames so far: a, world. --timeout SECONDS ends the wait.",
         "",
     ]
 
@@ -110,7 +110,7 @@ def test_whoever_has_said_how_long_to_wait_is_not_told_how_to(world, capsys):
 
     _, err, raised = echoed(world, capsys, source="c", patience=seconds(3))
 
-    assert err.endswith("\nFrames there are so far: a, world.\n")
+    assert err.endswith("\nExisting frames so far: a, world.\n")
     assert isinstance(raised, LookupException)
 
 
@@ -140,7 +140,7 @@ def test_what_nobody_sends_any_more_is_waited_for_anew(world, capsys):
     out, err, _ = echoed(world, capsys, count=5, departures=Departures(world.clock, 3.1))
 
     assert places(out) == ["0.000", "1.000", "2.000", "3.000", "10.000"]
-    assert err == "Waiting for a in world: nothing new has come since its sender left\n"
+    assert err == "Waiting for a in world: no new transform has arrived since the publisher left\n"
 
 
 class Shown(list):
@@ -193,7 +193,7 @@ def test_who_has_said_how_long_to_wait_waits_no_longer_for_who_has_left(world, c
     )
 
     assert len(places(out)) == 4
-    assert str(raised) == "nothing new has come since its sender left"
+    assert str(raised) == "no new transform has arrived since the publisher left"
     assert world.clock.elapsed() == seconds(6)
 
 

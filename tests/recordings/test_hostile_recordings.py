@@ -398,7 +398,7 @@ def test_memory_that_does_not_suffice_is_told_in_a_sentence(tmp_path, monkeypatc
     monkeypatch.setattr(container.File, "at", at)
 
     assert main(["info", str(path)]) == 3
-    assert "memory that is left does not suffice" in capsys.readouterr().err
+    assert "not enough memory left" in capsys.readouterr().err
 
 
 def test_topics_of_a_closed_database_are_refused_and_not_counted_as_empty(tmp_path):

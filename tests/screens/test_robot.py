@@ -130,7 +130,7 @@ def test_a_number_is_typed_and_taken_by_enter(shown, mover):
     ("keys", "told"),
     [
         (("down", "9", "enter"), "9 is beyond the limits, 1 to 5"),
-        (("1", "minus", "enter"), "'1-' is no number"),
+        (("1", "minus", "enter"), "'1-' is not a number"),
         (("1", "e", "9", "9", "9", "enter"), "inf"),
     ],
 )

@@ -234,7 +234,7 @@ def test_the_key_help_names_no_key_that_does_nothing(danced):
     quiet = "\n".join(shown(danced, keys=("?",), press=None))
     full = "\n".join(shown(danced, keys=("?",), press=lambda key: None, scenarios=lambda: OFFERED))
 
-    for words in ("drive turtle1", "give the turn up", "another scenario"):
+    for words in ("drive turtle1", "cancel the turn", "another scenario"):
         assert words not in quiet
         assert words in full
     assert "next panel" in quiet

@@ -50,7 +50,7 @@ def _set_up_completion(*, show: bool) -> None:
         sys.stdout.write(completion.SCRIPTS[shell])
         return
     files = " and ".join(str(path) for path in completion.install(shell))
-    sys.stdout.write(f"Written: {files}. It works in every {shell} that starts now.\n")
+    sys.stdout.write(f"Written: {files}. Completion works in every new {shell}.\n")
 
 
 def main(argv: "Sequence[str] | None" = None, providers: "Providers | None" = None) -> int:
@@ -93,12 +93,12 @@ def main(argv: "Sequence[str] | None" = None, providers: "Providers | None" = No
         _forget_output()
         status = ExitStatus.DONE
     except MemoryError:
-        _complain("tftool", "The memory that is left does not suffice for that.")
+        _complain("tftool", "There is not enough memory left for this command.")
         status = ExitStatus.UNREADABLE
     except OSError as error:
         if isinstance(error, TimeoutError) and error.errno is None:
             # asyncio's timeout, which is an OSError only by inheritance, not failed output.
-            _complain("tftool", f"{error or 'Something did not answer in time'}.")
+            _complain("tftool", f"{error or 'An answer did not arrive in time'}.")
             return ExitStatus.FAILED
         # Functions that open files handle their errors; what remains is mostly stdout.
         _forget_output()

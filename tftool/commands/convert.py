@@ -64,8 +64,8 @@ def _text(words: list[str] | None) -> str:
         return " ".join(words)
     if not words and sys.stdin.isatty():
         raise UsageError(
-            "Paste a rotation behind 'tftool convert', or pipe it in: "
-            "tftool convert --as xyzw 0 0 0.7 0.7"
+            "No rotation is given: write or pipe in a rotation, as in "
+            "'tftool convert --as xyzw 0 0 0.7 0.7'."
         )
 
     return sys.stdin.read(LONGEST + 1)

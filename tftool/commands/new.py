@@ -239,7 +239,7 @@ def _make_scenario(path: Path, *, as_json: bool) -> None:
         path,
         "",
         (),
-        (f"tftool check {path}", "judge it"),
+        (f"tftool check {path}", "play the scenario"),
         (f"tftool demo {path}", "see it"),
         as_json=as_json,
     )
@@ -253,9 +253,12 @@ def _say_what_next(
         path,
         " Write the lines marked TODO." if exercise else "",
         files,
-        (f"tftool launch {launch}", "run it; 'tftool demo --join' shows it"),
-        (f"pytest --ros-free {path}", "test it, after 'pip install pytest'"),
-        (f"tftool check {path / 'scenarios' / f'{example}.yaml'} --launch {launch}", "judge it"),
+        (f"tftool launch {launch}", "run the nodes; 'tftool demo --join' shows them"),
+        (f"pytest --ros-free {path}", "test the nodes, after 'pip install pytest'"),
+        (
+            f"tftool check {path / 'scenarios' / f'{example}.yaml'} --launch {launch}",
+            "play the scenario",
+        ),
         as_json=as_json,
     )
 

@@ -186,7 +186,7 @@ def test_a_marker_with_a_lifetime_ends_and_one_that_cannot_be_drawn_is_named():
 
     assert [shape.until for shape in first.shapes] == [EPOCH + seconds(2)]
     assert keys(second) == ["test/2"]
-    assert second.faults == ("no drawing for markers of type 10",)
+    assert second.faults == ("markers of type 10 are not drawn",)
 
 
 def test_of_too_many_markers_and_places_so_many_are_drawn_as_have_room():

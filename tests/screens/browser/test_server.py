@@ -208,7 +208,7 @@ def test_other_users_of_the_machine_get_nothing_without_the_secret(path, query):
         put(world, 1.0)
         status, _, body = await fetch(page.port, path + quote(query, safe="?=&"))
         assert status == 403
-        assert b"lacks its secret: open the one that 'tftool view' printed" in body
+        assert b"lacks the secret: open the address that 'tftool view' printed" in body
         assert b"turtle" not in body
         assert secret_of(page).encode() not in body
 

@@ -126,7 +126,7 @@ def test_session_says_when_nobody_is_there():
     alone = run_here("session")
 
     assert alone.returncode == 0
-    assert alone.stderr.startswith("No process is here in domain 0")
+    assert alone.stderr.startswith("No session is running in domain 0")
     assert alone.stdout.splitlines() == ["Processes (0)", "Topics (0)", "Services (0)"]
 
 
@@ -135,7 +135,7 @@ def test_a_named_world_keeps_to_itself_while_a_session_runs():
         first.says('"translation"')
         alone = run_here("echo", "map", "odom", "robot", "--once")
         assert alone.returncode == 0
-        assert "this world keeps to itself" in alone.stderr
+        assert "this world is not shared" in alone.stderr
         assert "map" not in run_here("tree").stdout
 
 
@@ -147,7 +147,9 @@ def test_who_stays_says_that_the_host_has_left_and_goes_on_with_the_next(leave):
             guest.says("At time")
             leave(first)
             left = guest.says(f"'tftool echo' (process {first.pid}), which hosted, has left")
-            guest.says("Waiting for turtle1 in turtle2: nothing new has come since", after=left)
+            guest.says(
+                "Waiting for turtle1 in turtle2: no new transform has arrived since", after=left
+            )
             # Only a waiting guest is left, so the next command hosts the session.
             with host() as second:
                 second.says("No session is running here: hosting scenario 'turtles'.")
@@ -159,7 +161,7 @@ def test_a_named_world_is_shared_with_those_who_have_none():
     with Process("static", "--x", "1", "--frame-id", "A", "--child-frame-id", "B") as static:
         static.says("Spinning")
         with Process("echo", "map", "odom") as waiting:
-            waiting.says("Frames there are so far: B, A.")
+            waiting.says("Existing frames so far: B, A.")
             with Process("echo", "map", "B", "robot") as named:
                 # The frames are in one session, but in unconnected trees.
                 named.says("not part of the same tree")

@@ -144,8 +144,8 @@ def joint_to_change(output: Path, published: PublishedMount, name: str | None) -
     chosen = _joint(published, name)
     if chosen is None and output.suffix == ".urdf":
         raise UsageError(
-            f"The description has no '{published.name}' below '{published.parent}': name the "
-            "frame with --mounted NAME, or the joint with --joint NAME."
+            f"The description has no link '{published.name}' below '{published.parent}': name "
+            "the link with --mounted NAME, or the joint with --joint NAME."
         )
     return chosen
 

@@ -208,7 +208,7 @@ def run(options: CheckOptions) -> ExitStatus:
     """Run `tftool check`: judge scenarios and packages, and print the outcomes."""
     if not options.scenarios and not options.packages:
         raise UsageError(
-            "no scenario is named: give its name or file, or a package as --as-ros PACKAGE"
+            "no scenario is given: write a name or a file, or a package as --as-ros PACKAGE"
         )
     kept = None if options.recordings is None else _Kept(options.recordings)
     judging: AbstractContextManager[Callable[..., Verdict]]

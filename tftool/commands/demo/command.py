@@ -189,7 +189,7 @@ def run(connection: Connection, options: DemoOptions) -> ExitStatus:
         if arguments or options.rate != 1.0 or options.lasting is not None or options.for_programs:
             raise UsageError(
                 "The demo only displays a recording: leave out --set, --source-frame, --rate, "
-                "--for and --json. 'tftool play' plays it."
+                "--for and --json. 'tftool play' plays the recording."
             )
         _show_recording(connection, options, options.scenario)
         return ExitStatus.DONE

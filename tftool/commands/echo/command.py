@@ -83,7 +83,7 @@ def run(connection: Connection, options: EchoOptions) -> ExitStatus:
         ),
         (
             options.fixed_frame is not None and options.offset is None,
-            "--fixed-frame needs --offset: it connects SOURCE at that time with TARGET now.",
+            "--fixed-frame needs --offset: FRAME connects SOURCE at that time with TARGET now.",
         ),
         (
             options.at is not None and options.offset is not None,

@@ -89,8 +89,8 @@ def _prefix(text: str) -> str:
     if name[-1].isalnum():
         # ROS 1's tf_prefix inserted a slash here, ROS 2's frame_prefix inserts none.
         raise UsageError(
-            f"--prefix {text} would make {name}base_link of base_link: end it in a slash, "
-            f"--prefix {name}/"
+            f"--prefix {text} would rename base_link to {name}base_link: end the prefix in a "
+            f"slash, --prefix {name}/"
         )
     return name
 

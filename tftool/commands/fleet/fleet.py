@@ -375,7 +375,7 @@ def _failure(error: Exception) -> str:
             "The workers of the cluster do not have this version of tftool: install it there."
         ) from error
     if type(error).__name__ == "KilledWorker":
-        return "the workers that read it were ended (memory?)"
+        return "the workers that read this recording were killed (too little memory?)"
     if isinstance(error, CancelledError) or type(error).__module__.startswith("distributed"):
         raise InputError(
             "The connection to the cluster was lost: the same command with --resume processes "
@@ -390,7 +390,7 @@ def _alone(source: str, task: FleetTask) -> list[Row]:
         try:
             return pool.submit(task.rows, source, source).result()
         except BrokenExecutor:
-            return [task.unreadable(source, "the process that read it was ended (memory?)")]
+            return [task.unreadable(source, "its process was killed (too little memory?)")]
 
 
 # Which recordings, and what came of them
@@ -460,7 +460,7 @@ def announce(counts: dict[str, int], earlier: dict[str, int], output: Path) -> N
     """Print a summary: recordings processed now, and recordings whose rows existed before."""
     total = sum(counts.values())
     passed = sum(earlier.values())
-    over = f" ({passed:,} were in it already: {told(earlier)})" if passed else ""
+    over = f" ({passed:,} were in the file already: {told(earlier)})" if passed else ""
     what = told(counts) or "nothing left to do"
     name = "recording" if total == 1 else "recordings"
     sys.stdout.write(f"{total:,} {name}: {what}. Rows are in {visible(str(output))}{over}.\n")

@@ -66,8 +66,8 @@ def run(connection: Connection, options: FollowOptions) -> ExitStatus:
         )
     if options.delay and options.delay >= world.buffer.cache_time:
         notice(
-            f"The buffer keeps {as_seconds(world.buffer.cache_time):g} s, and has forgotten where "
-            f"{visible(options.leader)} was {as_seconds(options.delay):g} s ago: give "
+            f"The buffer keeps {as_seconds(world.buffer.cache_time):g} s, which is too short to "
+            f"look up {visible(options.leader)} {as_seconds(options.delay):g} s ago: give "
             f"--cache-time {as_seconds(options.delay + options.period):g}."
         )
     world.log.listen(_tell, "console")

@@ -99,8 +99,8 @@ def _show(connection: Connection, place: str, name: str, *, for_programs: bool) 
     word = visible(name)
     if found.kind is Kind.SCENARIO:
         sentence = (
-            f"'{word}' is no recording and no robot description. As a scenario, 'tftool check "
-            f"{word}' plays it, and 'tftool tree {word}' shows its frames."
+            f"'{word}' is a scenario, not a recording or robot description: 'tftool check {word}' "
+            f"plays the scenario, 'tftool tree {word}' shows the frames."
         )
         raise InputError(sentence) if Path(place).is_file() else UsageError(sentence)
     if not found.kind.is_recording:

@@ -442,7 +442,7 @@ def run(connection: Connection, options: MonitorOptions) -> ExitStatus:
         is_recording = place is not None and named(place).kind.is_recording
     except InputError as error:
         if frames is None:
-            sentence = f"{error} For the chain between two frames, name both."
+            sentence = f"{error} To report on two frames, name both frames."
             raise InputError(sentence) from error
         raise
     if options.for_programs:

@@ -53,10 +53,10 @@ def _no_link(described: Robot, link: str) -> str:
 
 def _tell(described: Robot, follow: bool) -> None:
     moving = sum(joint.moves for joint in described.joints.values())
-    whose = "the /joint_states of others say" if follow else "--joint says"
+    given = "/joint_states of other nodes" if follow else "--joint"
     sys.stdout.write(
         f"Publishing robot '{visible(described.name)}': {count(len(described.links), 'link')}, "
-        f"{count(moving, 'moving joint')}; {whose} where.\n"
+        f"{count(moving, 'moving joint')}, positions from {given}.\n"
     )
     sys.stdout.flush()
 

@@ -38,7 +38,7 @@ KEYBOARD = ("turtlesim", "turtle_teleop_key")
 """Package and executable of ROS that `tftool teleop` replaces."""
 
 
-SIMULATED = "Simulated time is a world's own, and shares no session"
+SIMULATED = "Simulated time cannot be shared in a session"
 
 
 def misplaced(words: Sequence[str], own: Collection[str]) -> list[str]:
@@ -54,13 +54,13 @@ def misplaced(words: Sequence[str], own: Collection[str]) -> list[str]:
         option = word.partition("=")[0]
         if option.startswith("--") and option in own:
             told.append(
-                f"'{visible(option)}' after FILE goes to the node; "
-                "tftool's own options stand before FILE."
+                f"'{visible(option)}' after FILE is passed to the node: "
+                "write tftool's own options before FILE."
             )
         elif before in ("-p", "-r", "--param", "--remap") and ":=" in word:
             told.append(
-                f"'{before} {visible(word)}' goes to the node as it is; "
-                "ROS 2's arguments stand after --ros-args."
+                f"'{before} {visible(word)}' is passed to the node unchanged: "
+                "write ROS 2's arguments after --ros-args."
             )
         before = word
     return told

@@ -123,7 +123,8 @@ def run(connection: Connection, options: SessionOptions) -> ExitStatus:
         notice(link.unanswering)
     elif link.graph.is_empty:
         notice(
-            f"No process is here in domain {connection.domain}: start 'tftool demo', for example."
+            f"No session is running in domain {connection.domain}: start one, for example with "
+            "'tftool demo'."
         )
     found = _as_object(link, _rates(connection, link, options.listen_for))
     text = json.dumps(found) if options.for_programs else _written(found, verbose=options.verbose)

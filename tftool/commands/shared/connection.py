@@ -328,7 +328,7 @@ def _argument(word: str) -> tuple[str, str]:
 
 
 NO_SESSION = "No session is running here"
-A_MOMENT = "A chosen moment is always simulated"
+A_MOMENT = "A requested time is always simulated"
 """Reason, as printed, for playing a scenario that the user did not name."""
 
 WHOLE = math.inf

@@ -122,10 +122,10 @@ def _why_alone(connection: Connection, link: "Link") -> str:
     if _has_host(link):
         name = session_name(link, connection.place)
         return (
-            f"A session is running here, {name}; this world keeps to itself (--domain N would "
-            "give it a session of its own)."
+            f"A session is running here, {name}; this world is not shared (--domain N would start "
+            "a separate session)."
         )
-    return f"This world keeps to itself. {link.unanswering}" if link.unanswering else ""
+    return f"This world is not shared. {link.unanswering}" if link.unanswering else ""
 
 
 def open_session(

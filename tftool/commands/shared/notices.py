@@ -55,7 +55,7 @@ def name_frames(
     near = near_names(missing[0], frames)
     named = ", ".join(visible(frame) for frame in frames[:MOST_NAMED])
     more = f" and {len(frames) - MOST_NAMED} more" if len(frames) > MOST_NAMED else ""
-    there = f"Frames there are {when}".rstrip()
+    there = f"Existing frames {when}".rstrip()
     meant = f" Did you mean {visible(near[0])}?" if near else ""
     notice(f"{there}: {named}{more}.{meant} {advice}".rstrip())
     return True
@@ -173,9 +173,10 @@ def rivalries(buffer: "Buffer", frames: Iterable[str]) -> list[str]:
             continue
         names = " and ".join(f"'{visible(sender)}'" for sender in senders)
         told.append(
-            f"{visible(frame)} is broadcast by {len(senders)} nodes in turns, {names}: it jumps "
-            "between what they say. One child frame should have one broadcaster."
+            f"{visible(frame)} is broadcast by {len(senders)} nodes in turns, {names}, so that the "
+            "frame jumps between their poses. One child frame should have one broadcaster."
         )
     if more:
-        told.append(f"So {'is' if more == 1 else 'are'} {count(more, 'frame')} more.")
+        has = "has" if more == 1 else "have"
+        told.append(f"{count(more, 'more frame')} {has} several broadcasters.")
     return told

@@ -30,11 +30,11 @@ SETTLED = seconds(1)
 def screen_lacks() -> str:
     """Return why a full-screen display is impossible, as part of a sentence; "" if possible."""
     if os.environ.get("TERM") == "dumb":
-        return "TERM=dumb is one without a screen"
+        return "TERM=dumb has no screen"
     # textual draws on stderr, so stderr must be a terminal, too.
     streams = {"stdin": sys.stdin, "stdout": sys.stdout, "stderr": sys.stderr}
     lacking = [name for name, one in streams.items() if one is None or not one.isatty()]
-    return f"{lacking[0]} is none" if lacking else ""
+    return f"{lacking[0]} is not a terminal" if lacking else ""
 
 
 class ScreenOptions(Protocol):

@@ -25,7 +25,7 @@ EXPLAINED = ("CLOCK_MIXTURE", "NAME", "SINGLE", "SPLIT", "STOPPED")
 SETTLED = seconds(0.75)
 """Nanoseconds before the reason for the wait is first printed, and between two checks of it."""
 
-NOTHING_NEW = "nothing new has come since its sender left"
+NOTHING_NEW = "no new transform has arrived since the publisher left"
 
 
 class PairWait:

@@ -79,7 +79,7 @@ def fitting(
     if marks:
         lines.append(Text(advice(marks), style="yellow"))
     if found.is_cut:
-        lines.append(Text("Some names are cut to fit: --wide shows them whole.", style="dim"))
+        lines.append(Text("Some names are shortened: --wide prints the full names.", style="dim"))
     return lines
 
 

@@ -341,7 +341,7 @@ class PageServer:
             if not secrets.compare_digest(given.encode(), self._secret.encode()):
                 return _refuse(
                     HTTPStatus.FORBIDDEN,
-                    "This address lacks its secret: open the one that 'tftool view' printed.",
+                    "This address lacks the secret: open the address that 'tftool view' printed.",
                 )
         if path == "/frames":
             origins = request.headers.get_all("Origin")

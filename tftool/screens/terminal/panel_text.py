@@ -396,24 +396,24 @@ DRIVING = """\
  Arrow keys   drive turtle1; a press lasts a second
  g t r e      turn to 0, 45, 90, 135 degrees
  d c v b      turn to 180, -135, -90, -45 degrees
- f            give the turn up
+ f            cancel the turn
 
 """
 
 LOOKING = """\
  Tab          next panel (Shift+Tab: back)
  Up, Down     in the tree: pick a frame (also j, k)
- Enter        measure from the frame picked
+ Enter        make the picked frame the target
  x            swap the two frames
- F            draw the picture in the frame picked (again: in the root)
+ F            draw the picture in the picked frame (again: in the root)
 
- + - 0        nearer, farther, all there is (also the wheel)
+ + - 0        zoom in, zoom out, show everything (also the wheel)
  Shift+Arrow  move the picture (or drag it)
- p            the frames in space, or from above; in space:
+ p            3-D picture, or the view from above; in 3-D:
               Shift+Arrow turns, w changes the view, y keeps the picked
               frame in the middle, < > go farther and nearer, a shows all
 
- [ ]          back and on in time by 0.1 s
+ [ ]          back and forward in time by 0.1 s
  { }          by a second
  l            back to live
 

@@ -68,11 +68,11 @@ _SEEKS: Final[Mapping[str, Duration]] = {
 }
 
 KEYS = f"""\
- Space        pause, or go on
+ Space        pause, or continue
  Right        pause, and send the next message
- [ ]          back and on by 1 s (also Left)
+ [ ]          back and forward by 1 s (also Left)
  {{ }}          by 10 s
- n N          next finding, finding before
+ n N          next finding, previous finding
  Up, Down     faster, slower
  r            play again from the start
  0            go to the start

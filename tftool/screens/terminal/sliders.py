@@ -152,7 +152,7 @@ class Sliders:
         try:
             position = float(text)
         except ValueError:
-            self.refusal = f"'{text}' is no number"
+            self.refusal = f"'{text}' is not a number"
             return
         limits = joint.limits
         if limits is not None and not limits[0] <= position <= limits[1]:
@@ -186,7 +186,7 @@ class Sliders:
 
     def _move(self, joint: RobotJoint, position: float) -> None:
         if self._mover is None:
-            self.refusal = "others move the joints: leave out --follow to move them here"
+            self.refusal = "other nodes move the joints: leave out --follow to use the keys"
             return
         try:
             self._mover.move(joint.name, position)

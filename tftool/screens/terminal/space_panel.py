@@ -33,8 +33,8 @@ _MOVES: Mapping[str, Callable[[OrbitCamera], None]] = {
 
 SPACE_KEYS = """\
  p            the picture, or as before
- Shift+Arrow  turn around them (or drag with the mouse)
- < >          farther, nearer (also the wheel)
+ Shift+Arrow  turn the picture (or drag with the mouse)
+ < >          zoom out, zoom in (also the wheel)
  w            another view: orbit, top, front, side
  y            keep the chosen frame in the middle, or the scene
  a            show everything again

@@ -63,7 +63,7 @@ def draw(message: Any, arrival: Arrival) -> DrawnMessage:
         moment = max(stamp, moment) if stamp else moment
         parts = _PARTS.get(marker.type)
         if parts is None:
-            faults.append(f"no drawing for markers of type {marker.type}")
+            faults.append(f"markers of type {marker.type} are not drawn")
             continue
         lifetime = marker.lifetime.sec * NANOSECONDS + marker.lifetime.nanosec
         for kind, places, turn, size in parts(marker):
