@@ -147,7 +147,7 @@ def test_a_frame_is_found_by_typing_a_part_of_its_name(chromium, stage):
 
     page.find("#target").click()
     press(page, "nothing of that name")
-    page.until(lambda: page.texts("#offers li") == ["no frame of that name"])
+    page.until(lambda: page.texts("#offers li") == ["no frame has that name"])
     press(page, Keys.ENTER, Keys.ESCAPE)
     assert page.find("#target").get_attribute("value") == "link_20"
 

@@ -3,7 +3,7 @@
 import { MOUSE, OrthographicCamera, TOUCH, Vector3 } from "three";
 
 const REACH = 1e5; // metres
-const AWAY = 50; // metres; without perspective it makes no difference
+const AWAY = 50; // metres from the box to the camera; without perspective, the value has no effect
 
 /**
  * Direction of view and upward direction of each camera, in ROS's axes: x forward, y left, z up.

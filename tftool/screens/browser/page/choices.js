@@ -1,7 +1,7 @@
 // @ts-check
 // The user's choices: switches, frames, filters, numbers. The page's address contains all of them.
 
-/** Limits of the numbers that can be typed. */
+/** Limits of the numbers that the user can type. */
 export const LIMITS = { interval: [0, 60], timeout: [1, 1e6], length: [1, 60], side: [180, 640] };
 
 /** Quantities of the pair that can be plotted. */
@@ -35,7 +35,7 @@ export class Choices {
     this.axes = given.axes ?? true;
     this.arrows = given.arrows ?? true;
     this.grid = given.grid ?? true;
-    // The page chooses everything that the user has not: see opening.js.
+    // opening.js chooses the values that the user has not chosen.
     this.byHand = {
       trails: given.trails !== undefined,
       whole: given.whole !== undefined || given.length !== undefined,
@@ -46,14 +46,14 @@ export class Choices {
     this.visuals = given.visuals ?? true; // of the robot
     this.collisions = given.collisions ?? false;
     this.jointaxes = given.jointaxes ?? false;
-    this.through = given.through ?? true; // axes are seen through solids
+    this.through = given.through ?? true; // whether axes are visible through solids
     this.opacity = Math.min(1, Math.max(0.1, given.opacity ?? 1));
     this.view = VIEWS.includes(given.view) ? given.view : "top";
     this.theme = given.theme === "light" || given.theme === "dark" ? given.theme : theme;
     this.interval = 0; // seconds
     this.timeout = 15; // seconds
-    this.length = 10; // of trails, seconds
-    this.whole = given.whole ?? false; // trails of the whole history, not of a length
+    this.length = 10; // duration of trails, seconds
+    this.whole = given.whole ?? false; // whether trails show the whole history
     /** @type {number | undefined} */
     this.side = undefined; // width of the list of frames, pixels; undefined: fits the names
     for (const id of Object.keys(LIMITS)) this.setNumber(id, given[id]);
@@ -62,9 +62,9 @@ export class Choices {
     /** @type {number | undefined} */
     this.scale = given.scale; // of the markers; undefined: by the size of the scene
     /** @type {string | undefined} */
-    this.fixed = given.fixed; // the current one
+    this.fixed = given.fixed; // the current fixed frame
     /** @type {string | undefined} */
-    this.wanted = given.fixed; // the user's choice
+    this.wanted = given.fixed; // the fixed frame that the user has chosen
     /** @type {string | undefined} */
     this.target = given.target;
     /** @type {string | undefined} */
@@ -86,7 +86,7 @@ export class Choices {
   }
 
   /**
-   * Keep a number within its limits; ignore a value that is no number.
+   * Set a number, moved into the permitted limits; ignore a value that is not a number.
    * @param {string} id
    * @param {number | undefined} value
    */
@@ -96,7 +96,7 @@ export class Choices {
   }
 
   /**
-   * Filter names by a regular expression; an invalid one keeps the last valid one.
+   * Filter names by a regular expression; if the expression is invalid, the last valid one stays.
    * @param {string} id `only` or `not`
    * @param {string} text
    * @returns {string} what is wrong with it, empty if nothing is
@@ -135,7 +135,7 @@ export class Choices {
     return this.fixed !== before;
   }
 
-  /** The fixed frame that the user chose, while another replaces it. */
+  /** The fixed frame that the user chose, while another is used because the chosen frame does not exist. */
   get missed() {
     return this.wanted === this.fixed ? undefined : this.wanted;
   }
@@ -163,7 +163,7 @@ export class Choices {
   }
 
   /**
-   * All choices in the address, for `share.write`.
+   * All choices that the page's address contains, for `share.write`.
    * @param {number | null} at moment shown; null for the present
    * @param {number[] | undefined} camera undefined while the page moves the camera
    */

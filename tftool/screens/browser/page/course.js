@@ -21,7 +21,7 @@ const SEVERITIES = { error: "#e5484d", warning: "#d08700", note: "#7a8699" };
 const MOST_MOMENTS = 1000;
 const SERIES_EVERY = 500; // milliseconds, while live
 const ZOOMED_EVERY = 120; // milliseconds, while the user zooms or pans
-const MOST_LATER = 5000; // poses kept beyond the series
+const MOST_LATER = 5000; // poses stored after the end of the series
 const MARKS_EVERY = 5000;
 
 export class Course {
@@ -99,7 +99,7 @@ export class Course {
     this.hooks.redraw();
   }
 
-  /** Go to a pixel's time, or to that of the finding under it. */
+  /** Go to the time of a pixel, or to the time of the finding at the pixel. */
   go(pixel) {
     this.timeline.scrub(this.finding(pixel)?.since ?? this.scale.moment(pixel));
   }
@@ -121,14 +121,14 @@ export class Course {
     canvas.title = lines.join("\n");
   }
 
-  /** Take in requested data. */
+  /** Store requested data. */
   setSeries(message) {
     this.series = message;
     const from = message.times[0];
     this.later = this.later.filter(({ moment }) => moment >= from);
   }
 
-  /** Add the pair's newest pose to the plot: the series is requested less often. */
+  /** Add the pair's newest pose to the plot, because the series is requested less often. */
   add({ found, target, source, moment, translation, rpy }) {
     const last = this.later[this.later.length - 1];
     if (last && (last.target !== target || last.source !== source || last.moment > moment)) this.later = [];
@@ -143,7 +143,7 @@ export class Course {
     this.marks = message;
   }
 
-  /** After a reconnection or a change of the tree: request everything again. */
+  /** Request all data again, after a reconnection or a change of the tree. */
   forget() {
     this.asked = { key: "", span: "", end: "", series: -Infinity, marks: -Infinity, zoomed: 0 };
   }
@@ -301,7 +301,7 @@ export class Course {
   }
 }
 
-/** Clear a canvas, and give it the size in which it is shown. */
+/** Clear a canvas, and set the canvas to the size in which it is shown. */
 function fresh(canvas) {
   const width = canvas.clientWidth;
   const height = canvas.clientHeight;

@@ -1,14 +1,14 @@
 // @ts-check
-// Many small things as one mesh, put together for every picture. A processor that plays graphics card
-// pays for every instance as for a picture of its own, and for every corner: among many frames, each
-// thing is a tetrahedron.
+// Many small objects as one mesh, which is put together for every picture. Without a graphics card,
+// every instance costs as much as a separate mesh, and every vertex has a cost. If there are many
+// frames, each object is therefore a tetrahedron.
 import {
   BufferAttribute, BufferGeometry, ConeGeometry, CylinderGeometry, DynamicDrawUsage, Mesh, MeshBasicMaterial, OctahedronGeometry,
 } from "three";
 import { mergeVertices } from "three/addons/utils/BufferGeometryUtils.js";
 
-const LEAST = 4096; // corners that have room
-const DARK = 0.62; // what the light does not reach
+const LEAST = 4096; // vertices for which the first buffers have space
+const DARK = 0.62; // brightness of faces that the light does not reach
 
 /** @typedef {{ places: number[], normals: number[], index: number[] }} Thing */
 
@@ -18,7 +18,7 @@ function thing(geometry) {
   return { places: [...attributes.position.array], normals: [...attributes.normal.array], index: [...(index?.array ?? [])] };
 }
 
-/** A spike that goes a metre along y, and is so thick where it begins. */
+/** A spike of one metre along y, with the given thickness at the beginning. */
 function spike(thick) {
   const [half, high] = [-thick / 2, (thick * Math.sqrt(3)) / 2];
   const corners = [0, 1, 0, thick, 0, 0, half, 0, -high, half, 0, high];
@@ -30,7 +30,7 @@ function spike(thick) {
 
 const rod = (sides, open = false) => new CylinderGeometry(1, 1, 1, sides, 1, open).translate(0, 0.5, 0);
 
-/** What a frame is drawn with, along x, y and z, where it is, and the way to its parent; and the same of few corners. */
+/** Objects that a frame is drawn with: axes x, y and z, origin, and line to the parent; also with few vertices. */
 export const [FINE, COARSE] = [
   { rod: () => rod(8), hub: new OctahedronGeometry(1, 1), shaft: rod(6, true), head: new ConeGeometry(1, 1, 10).translate(0, 0.5, 0) },
   { rod: () => spike(1.4), hub: spike(1).scale(1, 1.3, 1).translate(0, -0.3, 0), shaft: spike(1.4), head: spike(1) },
@@ -52,7 +52,7 @@ export class Crowd {
     this.places = new Float32Array(0);
     this.colors = new Uint8Array(0);
     this.index = new Uint32Array(0);
-    this.corners = this.sides = 0; // that are used
+    this.corners = this.sides = 0; // numbers of used vertices and faces
     this.begin();
   }
 
@@ -62,10 +62,10 @@ export class Crowd {
   }
 
   /**
-   * Add a thing, moved by a matrix.
+   * Add an object, moved by a matrix.
    * @param {Thing} thing
    * @param {import("three").Matrix4} matrix
-   * @param {import("three").Vector3} light where it comes from, as seen from the thing
+   * @param {import("three").Vector3} light direction of the light, seen from the object
    * @param {number[]} color red, green, blue and alpha
    */
   add({ places: own, normals, index }, { elements: m }, light, [red, green, blue, alpha]) {
@@ -102,7 +102,7 @@ export class Crowd {
     }
   }
 
-  /** Make room for twice as much. */
+  /** Double the size of the buffers. */
   grow() {
     const room = Math.max(LEAST, (2 * this.places.length) / 3);
     const wider = (before, made) => (made.set(before), made);

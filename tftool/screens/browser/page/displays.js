@@ -31,7 +31,7 @@ export class Displays {
   /**
    * Place the message of every topic.
    * @param {number | null} moment null for the present
-   * @param {import("./model.js").Model} model solved for the fixed frame
+   * @param {import("./model.js").Model} model with the poses in the fixed frame
    * @param {Set<string>} undrawn topics that are switched off
    */
   place(moment, model, undrawn) {
@@ -72,7 +72,7 @@ export class Displays {
   }
 
   /**
-   * Frame and place of the nearest point on a ray; null if there is none.
+   * Frame and position of the drawn point nearest to a ray; null without a point near the ray.
    * @param {import("three").Raycaster} ray
    */
   pick(ray) {
@@ -109,7 +109,7 @@ export class Displays {
     this.shown.delete(topic);
   }
 
-  /** Contents of the picture by topic: stamp of the message, number of places, kinds of shapes. */
+  /** Drawn message of each topic, for tests: stamp, number of positions, kinds of shapes. */
   drawn() {
     const found = {};
     for (const [topic, { message, parts }] of this.shown) {

@@ -6,13 +6,13 @@ import { secured } from "./secret.js";
 /** @type {Map<string, Blob> | null} */
 let kept = null;
 
-// three.js's loaders load textures and buffers that a mesh names.
+// The loaders of three.js also load the textures and buffers that a mesh refers to.
 DefaultLoadingManager.setURLModifier((address) =>
   /^(data|blob):/.test(address) ? address : secured(address),
 );
 
 /**
- * Serve files from the saved page from now on, and from nowhere else.
+ * From now on, take all files from the saved page, and load nothing else.
  * @param {import("./packed.js").Packed} packed
  */
 export function keepFiles(packed) {

@@ -14,16 +14,16 @@ export function number(value, digits) {
 
 /**
  * Text in place of the rate of a frame in the model's `statics`.
- * @param {number} still 1 for a static frame, 2 for one that only its slider moves
+ * @param {number} still 1 for a static frame, 2 for a frame that only a slider moves
  */
 export const stillness = (still) => (still === 2 ? "joint" : "static");
 
-const LONG = 20; // characters; a longer name may have no space beside its rate
+const LONG = 20; // characters; a longer name may not fit beside the rate
 const TAIL = 12;
 
 /**
- * Split a name in two parts, the second always visible: names of one device differ at
- * their ends. Only left-to-right text of simple characters is split.
+ * Split a name into two parts, of which the second is always visible: names of one device differ
+ * at the end. Only left-to-right text of simple characters is split.
  * @param {string} name
  */
 export const halves = (name) =>

@@ -5,16 +5,16 @@ import { fade } from "./model.js";
 
 const MOST_TRAILS = 60;
 const HUES = [207, 332, 140, 32, 268, 180, 354, 80, 238, 300];
-// A frame is late after this number of its periods, and at least this time; red later.
+// Samples of a frame are late after this number of periods, and at least this time; then the frame becomes red.
 const LATE = { periods: 3, seconds: 1 };
 const BESIDE = 0.4; // opacity of frames outside of the chain
 const DEAD = { periods: 10, seconds: 5 };
 
 /**
- * pose, parent: in the fixed frame, null if unknown or without a parent. grey, alpha: degree of
- * fading. shown: whether it is in the picture. trouble: why it cannot be. told: rate or age.
- * late: "late" or "dead" if data stopped. color: of the name in the list and of the trail.
- * dim: 1, or less outside of the pair's chain.
+ * pose, parent: poses of the frame and its parent in the fixed frame, null if unknown. grey, alpha:
+ * degree of fading. shown: whether the frame is in the picture. trouble: why the frame has no pose.
+ * told: rate or age as text. late: "late" or "dead" if data stopped. color: colour of the name in the
+ * list and of the trail. dim: opacity; 1, or less outside of the pair's chain.
  * @typedef {{
  *   index: number, name: string, pose: number[] | null, parent: number[] | null,
  *   grey: number, alpha: number, filtered: boolean, shown: boolean, lost: boolean,
@@ -23,14 +23,14 @@ const DEAD = { periods: 10, seconds: 5 };
  */
 
 /**
- * Colour of a frame: the first frames get those that differ most.
+ * Colour of a frame; the first frames get the colours that differ most.
  * @param {number} place of the frame, see `placesOf`
  * @param {string} theme
  */
 export function colorOf(place, theme) {
-  // After the last hue they repeat in another tone.
+  // After the last hue, the hues repeat in another tone.
   const tone = [0, -14, 10][Math.floor(place / HUES.length) % 3];
-  // With commas: three.js parses no other form.
+  // With commas, because three.js parses no other notation.
   return `hsl(${HUES[place % HUES.length]}, 85%, ${(theme === "dark" ? 66 : 45) + tone}%)`;
 }
 
@@ -79,7 +79,7 @@ export function describe(model, choices, past, pair = null) {
   });
 }
 
-/** Why there is no pose, in rviz's words, with the reason if known. */
+/** Error text for a frame without a pose, worded as in rviz, with the reason if known. */
 function trouble(model, index, fixed, past) {
   const refusal = `No transform from [${model.names[index]}] to [${fixed}]`;
   if (!model.index.has(fixed)) return `${refusal}: frame [${fixed}] does not exist`;
@@ -127,7 +127,7 @@ export function trailing(model, drawn, choices) {
 }
 
 /**
- * Trail of a frame up to a time, from stored poses, or finer ones if known.
+ * Trail of a frame up to a time, from stored poses, or from requested poses with more samples.
  * @param {import("./model.js").Model} model
  * @param {Frame} frame
  * @param {import("./choices.js").Choices} choices
@@ -140,13 +140,13 @@ export function trail(model, { index, name, color, pose }, choices, until, fine 
   return { name, color, points, ahead: /** @type {number[][]} */ ([]), whole: choices.whole };
 }
 
-/** Whether a frame gets a trail by default: it moves, and is not just mounted on something that moves. */
+/** Whether a frame gets a trail by default: if it moves relative to its parent, not only together with its parent. */
 function leaves(model, index, choices) {
   return model.moves(index) && (choices.byHand.trails || !model.statics[index]);
 }
 
 /**
- * Poses along a found pair's chain; empty if one is unknown.
+ * Poses along the chain of a pair; empty if a pose is unknown.
  * @param {import("./model.js").Model} model
  * @param {{ found: boolean, chain: string[] } | null} pair
  * @returns {number[][]}

@@ -3,11 +3,11 @@
 
 const STALE = { periods: 30, seconds: 5 };
 
-/** Whether a server still sends: a stopped or hanging one keeps its connection. */
+/** Detector of a server that has stopped sending, although its connection is still open. */
 export class Hearing {
   constructor() {
     this.at = 0; // time of the last message, milliseconds
-    this.last = 0; // the pause before that, and the longest recent pause that was not single
+    this.last = 0; // pause before the last message, and the longest recent pause that was not an exception
     this.pause = 0;
   }
 
@@ -20,7 +20,7 @@ export class Hearing {
   }
 
   /**
-   * Start again: earlier silence has no meaning.
+   * Start again, and ignore earlier pauses.
    * @param {number} now
    */
   begin(now) {
@@ -28,7 +28,7 @@ export class Hearing {
   }
 
   /**
-   * Whether the silence is longer than that of a running server.
+   * Whether the pause since the last message is longer than the pauses of a running server.
    * @param {number} now
    */
   isOver(now) {
@@ -37,8 +37,8 @@ export class Hearing {
 }
 
 /**
- * "wait" before the first data, "gone" without a server, "silent" if it sends nothing, "stale" if it repeats the same data
- * although its time advances, "stored" for a saved page, "past" and "live".
+ * State of the data: "wait" before the first data, "gone" without a server, "silent" if the server sends nothing, "stale" if the
+ * server repeats the same data although its time advances, "stored" for a saved page, "past" for a past time, "live".
  * @param {"wait" | "open" | "silent" | "ended" | "stored"} connection
  * @param {import("./model.js").Model} model
  * @param {boolean} past whether a past time is shown
@@ -50,7 +50,7 @@ export function freshness(connection, model, past) {
   return isStale(model) ? "stale" : "live";
 }
 
-/** Whether there are moving links, and none has had a recent sample. */
+/** Whether links move, but no link has a recent sample. */
 function isStale(model) {
   const { poses } = model;
   if (!poses || poses.at !== null || poses.count !== model.names.length) return false;

@@ -3,8 +3,8 @@
 import { compose } from "./maths.js";
 
 /**
- * frame: child frame. turns: whether it turns about its axis, else it slides. leader: joint whose position
- * counts, itself unless it mimics another; position = leader's position * factor + offset.
+ * frame: child frame. turns: whether the joint turns about its axis; otherwise, the joint slides. leader: the joint
+ * that this joint mimics, else the joint itself; position = leader's position * factor + offset.
  * @typedef {{ frame: string, turns: boolean, origin: number[], axis: number[], leader: string, factor: number,
  *   offset: number }} Joint
  */

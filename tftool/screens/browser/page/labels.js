@@ -1,5 +1,5 @@
 // @ts-check
-// Placement of names: beside their frames, moved aside if the place is taken.
+// Placement of names beside their frames; a name is moved aside if another name covers its place.
 
 const CELL = 8; // pixels
 const GAP = 2; // pixels between two names
@@ -20,10 +20,10 @@ for (const ring of [24, 40, 58, 80]) {
     PLACES.push([Math.cos(angle), Math.sin(angle), ring]);
   }
 }
-/** Number of names from which none is moved far away. */
+/** Number of names above which no name is moved far away. */
 export const MANY = 80;
 const FEW = 12;
-const NEAREST = 4; // of the places need no line
+const NEAREST = 4; // number of places that need no line to the frame
 
 /** @param {number[]} one left, top, width and height @param {number[]} other */
 export function overlap([left, top, width, height], other) {
@@ -71,10 +71,10 @@ export function standAt({ x, y, width, height }, place) {
 }
 
 /**
- * Give every name a place in the picture, in the order of the list; null if there is none.
+ * Give every name a place in the picture, in the order of the list; null if no place is free.
  * @param {Wanted[]} wanted
  * @param {{ width: number, height: number }} picture
- * @param {number[][]} [reserved] left, top, width and height of what no name may cover
+ * @param {number[][]} [reserved] left, top, width and height of areas that no name may cover
  * @returns {(Stand | null)[]}
  */
 export function arrange(wanted, picture, reserved = []) {
@@ -84,7 +84,7 @@ export function arrange(wanted, picture, reserved = []) {
   return wanted.map((one) => {
     const { width, height, first, was } = one;
     const stand = (place) => standAt(one, place);
-    // A name keeps a good place: jumping names cannot be read.
+    // A name keeps a good place, because jumping names cannot be read.
     for (let turn = was ? -1 : 0; turn < places; turn++) {
       const place = turn < 0 ? (was ?? 0) : turn;
       const found = stand(place);

@@ -1,6 +1,6 @@
 // @ts-check
-// Lookups in packed samples: the same results and refusals as those of the server's buffer.
-// Moments are whole nanoseconds since the epoch; null is the latest.
+// Lookups in packed samples, with the same results and errors as lookups in the server's buffer.
+// Times are whole nanoseconds since the epoch; null is the latest time.
 import { compose, normalized, rpy } from "./maths.js";
 import { FIELDS } from "./messages.js";
 import { Poses } from "./wire.js";
@@ -10,7 +10,7 @@ const MOST_DEPTH = 1000;
 const SHORTEST = 100_000; // nanoseconds: tf2 divides by at least this for a rate
 const HISTORY = 120; // times that represent the history
 
-/** A moment in seconds as whole nanoseconds; halves go to the even one, as in Python. */
+/** Convert seconds to whole nanoseconds; halves are rounded to even, as in Python. */
 export function nanoseconds(moment) {
   const value = moment * NANOSECONDS;
   const below = Math.floor(value);
@@ -21,7 +21,7 @@ export function nanoseconds(moment) {
 /** Error of a lookup, in the server's words. */
 export class Refusal extends Error {}
 
-/** A frame and its samples in its parent. */
+/** A frame, and the samples of its pose in the parent. */
 export class Link {
   /**
    * @param {import("./packed.js").PackedFrame} frame
@@ -62,7 +62,7 @@ export class Link {
     return this.isRounded ? normalized(pose) : pose;
   }
 
-  /** The last sample at or before a moment; oldest <= time < newest. */
+  /** Index of the last sample at or before a time; requires oldest <= time < newest. */
   index(time) {
     let low = 0;
     let high = this.count - 1;
@@ -75,7 +75,7 @@ export class Link {
   }
 
   /**
-   * The pose in the parent, interpolated; null if there is none.
+   * The interpolated pose in the parent; null if the time is outside of the samples.
    * @param {number | null} time
    * @returns {number[] | null}
    */
@@ -91,7 +91,7 @@ export class Link {
     return interpolate(this.sample(index), this.sample(index + 1), share);
   }
 
-  /** The parent's index at a moment; -1 if there is none. */
+  /** The parent's index at a time; -1 without a parent. */
   parentAt(time) {
     if (this.count === 0) return -1;
     if (this.isStatic || time === null || time === this.newest) return this.parents[this.count - 1];
@@ -124,7 +124,7 @@ function between(first, second) {
   return compose(turned, [x, y, z, ...second.slice(3)]);
 }
 
-/** Give a quaternion the sign that tf2 gives it. */
+/** Give a quaternion the same sign as tf2 does. */
 function canonical(pose) {
   const [, , , x, y, z, w] = pose;
   const [xx, yy, zz] = [x * x, y * y, z * z];
@@ -186,7 +186,7 @@ export class Lookups {
       revision,
       names: this.links.map(({ name }) => name),
       parents,
-      // 2: only a slider moves it.
+      // 2 for a frame that only a slider moves.
       statics: this.links.map((link, index) => (link.isStatic && parents[index] >= 0 ? 1 + Number(link.slides) : 0)),
       authorities: this.links.map(({ authority }) => authority || "no recorded authority"),
       total: this.total,
@@ -298,7 +298,7 @@ export class Lookups {
     return { type: "trails", fixed, from, to, places };
   }
 
-  /** Pose of `source` in `target` at a time; null if there is none. */
+  /** Pose of `source` in `target` at a time; null if the lookup fails. */
   pose(target, source, stamp) {
     try {
       return this.lookup(target, source, stamp).pose;
@@ -360,7 +360,7 @@ export class Lookups {
     return { up, down, top };
   }
 
-  /** The newest moment for which every link between two frames has data; null if none moves. */
+  /** The newest time for which every link between two frames has data; null if all links are static. */
   latestCommon(target, source) {
     /** @type {number[]} */
     const stamps = [];
@@ -416,7 +416,7 @@ export class Lookups {
     return new Refusal(`${why}, when looking up transform from frame [${source}] to frame [${target}]`);
   }
 
-  /** A moment as tf2 writes stamps in its messages: seconds with six decimals. */
+  /** A time as in tf2's error messages: seconds with six decimals. */
   display(time) {
     const stamp = this.epoch + BigInt(time);
     const whole = stamp / 1_000_000_000n;

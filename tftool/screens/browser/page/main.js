@@ -35,7 +35,7 @@ import { same, Wire } from "./wire.js";
 
 const FLIGHT = 350; // milliseconds
 const NEAR_POINT = 6; // pixels from a measured point of a cloud
-const LOW = 500; // pixels of a window without space for panels
+const LOW = 500; // height in pixels of a window without space for panels
 const STEP = 0.1; // seconds for each press of [ or ]
 const SWITCHES = ["names", "axes", "arrows", "grid", "trails", "visuals", "collisions", "jointaxes", "through", "whole"];
 // Times of requests for the trails' history: once the tree is stable, and once more later,
@@ -73,7 +73,7 @@ const timers = { past: [], address: undefined };
 let hovered;
 
 const measure = new Measure();
-/** @type {{ name: string, fixed: string | undefined, place: number[] } | null} where the camera has gone along to */
+/** @type {{ name: string, fixed: string | undefined, place: number[] } | null} last position of the followed frame */
 let carried = null;
 
 const timeline = new Timeline(
@@ -133,7 +133,7 @@ const handlers = {
     const another = model.setNames(message);
     timeline.rate = model.rate;
     timeline.moves = model.names.some((_, index) => model.parents[index] >= 0 && !model.statics[index]);
-    const recorded = message.begin ?? null; // the first time shown, for a recording
+    const recorded = message.begin ?? null; // the time that a recording shows first
     if (another) tracks.forget();
     if (recorded !== null) {
       server.recorded = timeline.ends = $("live").hidden = true;
@@ -195,7 +195,7 @@ const handlers = {
     server.unacknowledged = poses.sequence;
     timeline.setReach(poses);
     redraw.data(false);
-    if (!timeline.accepts(poses.at)) return; // too late: another time is shown by now
+    if (!timeline.accepts(poses.at)) return; // outdated, because another time is shown now
     // Poses of a shown time stay after the buffer has pruned it.
     if (poses.at !== null && poses.at < poses.oldest && model.poses?.at === poses.at) return;
     redraw.data(!same(poses, model.poses));
@@ -293,7 +293,7 @@ function pathsTo(at) {
   if (at === null || fixed === undefined) return frames.map((frame) => trail(model, frame, choices, reach.now));
   const from = whole ? reach.oldest : Math.max(reach.oldest, at - choices.length * rate);
   const until = whole ? reach.newest : at;
-  // First, because pieces in another fixed frame are no trail in this one.
+  // First, because pieces for another fixed frame are of no use for this fixed frame.
   past.look(fixed, frames.map(({ name }) => name), from, until, reach.newest, rate);
   return frames.map((frame) => {
     const line = trail(model, frame, choices, at, past.trail(frame.name, from, at));
@@ -311,7 +311,7 @@ function paint() {
   paintOver();
 }
 
-/** Paint what lies over the frames. */
+/** Paint the layer over the frames. */
 function paintOver() {
   const { pair } = server;
   const special = new Set([choices.chosen, hovered, ...(pair?.found ? [pair.source, pair.target] : [])]);
@@ -324,7 +324,7 @@ function paintOver() {
   if (measure.on) paintMeasure();
 }
 
-/** Distance of the pair's frames, as text; none if it is unknown or rounds to 0. */
+/** Distance of the pair's frames, as text; empty if the distance is unknown or rounds to 0. */
 function distance(pair) {
   if (!pair?.found || pair.translation.includes(null)) return "";
   const length = number(Math.hypot(...pair.translation), 3);
@@ -421,7 +421,7 @@ function insets() {
   };
 }
 
-/** Pixels of the window from the top of the timeline down; few where there is none. */
+/** Height in pixels of the timeline at the bottom of the window; 2 without a timeline. */
 const foot = () => (!$("time").offsetParent ? 2 : innerHeight - $("time").getBoundingClientRect().top);
 
 /** Areas covered by panels: left, top, width and height of each. */
@@ -435,8 +435,8 @@ function covered() {
 function fit(box) {
   stage.fit(box, insets());
   if (choices.scale === undefined) {
-    // Axes a twentieth of the scene: rviz's 1 suits a room, not a gripper nor a field.
-    // Smaller in a crowd.
+    // Axes of a twentieth of the scene: rviz's fixed size of 1 m fits a room, but not a gripper or a field.
+    // Axes are smaller if there are many frames.
     const crowd = Math.max(1, Math.cbrt(shown.drawn.length / 12));
     showScale(Math.min(100, Math.max(0.01, spread(box) / 4 / crowd)));
   }
@@ -447,7 +447,7 @@ function calm() {
   return matchMedia("(prefers-reduced-motion: reduce)").matches;
 }
 
-/** Center a frame, near enough to see its axes. */
+/** Center a frame, and move near enough to see the axes of the frame. */
 function flyTo(name) {
   const pose = model.absolute[model.index.get(name) ?? -1];
   if (!pose) return;
@@ -463,7 +463,7 @@ function refit() {
 // ---- choices
 
 function fillPickers() {
-  // A requested frame stays in the list while it does not exist.
+  // A requested frame stays in the list even while the frame does not exist.
   const asked = [choices.fixed, choices.wanted, choices.target, choices.source].map((name) => name ?? "");
   const absent = asked.filter((name) => name && !model.index.has(name));
   Picker.names = [...new Set([...absent, ...model.names])];
@@ -693,7 +693,7 @@ $("speed").onchange = () => {
 // A link to another view, opened in this window.
 addEventListener("hashchange", () => location.reload());
 
-/** Kind of keys that the focused element uses itself. */
+/** Kind of the focused element, which decides which keys it uses itself. */
 function focused(target) {
   if (!(target instanceof HTMLElement)) return "other";
   if (target.matches("textarea, input:not([type=checkbox], [type=range])")) return "text";
@@ -822,19 +822,19 @@ $("over").addEventListener("dblclick", (event) => {
   flyTo(frame.name);
 });
 addEventListener("resize", changed);
-// A narrow window breaks the bar into lines: the panels begin where it ends.
+// A narrow window breaks the bar into lines; the panels begin below the bar.
 new ResizeObserver(() => {
   const { bottom } = $("bar").getBoundingClientRect();
   document.documentElement.style.setProperty("--top", `${bottom + 10}px`);
 }).observe($("bar"));
 new ResizeObserver(() => {
   document.documentElement.style.setProperty("--foot", `${foot() + 10}px`);
-  // The free area has changed: until the user moves the camera, everything stays in view.
+  // The free area has changed. Until the user moves the camera, everything is kept in view.
   bounds.reset();
   redraw.picture();
 }).observe($("time"));
 
-// Silence causes no picture, but ages and the server's state must be updated.
+// While no message arrives, no picture is drawn, but ages and the server's state must be updated.
 setInterval(() => {
   const now = performance.now();
   // A hidden page draws nothing, and requests nothing.

@@ -37,7 +37,7 @@ export function invert(t) {
   return [x, y, z, -t[3], -t[4], -t[5], t[6]];
 }
 
-/** Normalise a stored quaternion; received ones may have another length. */
+/** Normalise a quaternion of a pose; received quaternions may have another length than 1. */
 export function normalized(t) {
   const length = Math.hypot(t[3], t[4], t[5], t[6]);
   return [t[0], t[1], t[2], t[3] / length, t[4] / length, t[5] / length, t[6] / length];
@@ -48,7 +48,7 @@ export function rpy(t) {
   const [, , , x, y, z, w] = t;
   const sine = Math.max(-1, Math.min(1, 2 * (w * y - z * x)));
   if (Math.abs(sine) > 1 - 1e-12) {
-    // At ±90° of pitch, roll and yaw are one rotation: all of it becomes roll.
+    // At ±90° of pitch, roll and yaw turn about the same axis: the whole angle becomes roll.
     const roll = 2 * Math.atan2(x, w);
     return [Math.atan2(Math.sin(roll), Math.cos(roll)), Math.sign(sine) * (Math.PI / 2), 0];
   }

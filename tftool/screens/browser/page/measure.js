@@ -1,12 +1,12 @@
 // @ts-check
-// Measurement between two points (frames, or places in frames), which moves with them.
+// Measurement between two points, which are frames or positions in frames, and may move.
 import { number } from "./format.js";
 import { compose } from "./maths.js";
 
-/** @typedef {{ name: string, place?: number[] }} End a frame, or a place in it */
+/** @typedef {{ name: string, place?: number[] }} End a frame, or a position in the frame */
 
 /**
- * Intersection of a ray with a plane, in front of its origin; null if there is none.
+ * Intersection of a ray with a plane, in front of the ray's origin; null without an intersection.
  * @param {{ origin: number[], way: number[] }} ray
  * @param {number[]} normal
  * @param {number[]} through
@@ -23,7 +23,7 @@ export function onPlane({ origin, way }, normal, through) {
 export class Measure {
   constructor() {
     this.on = false;
-    this.length = ""; // between the two, as `told` says it
+    this.length = ""; // distance between the two ends as text, computed by `told`
     /** @type {End[]} */
     this.ends = [];
   }
@@ -35,7 +35,7 @@ export class Measure {
   }
 
   /**
-   * Set the next end; a third one starts a new measurement.
+   * Set the next end; a third end starts a new measurement.
    * @param {End | null} end
    */
   click(end) {
@@ -45,7 +45,7 @@ export class Measure {
   }
 
   /**
-   * Present places of the ends; null for a frame without a pose.
+   * Current positions of the ends; null for a frame without a pose.
    * @param {(name: string) => number[] | null} poseOf
    * @returns {(number[] | null)[]}
    */

@@ -18,8 +18,8 @@ const HUES = 10;
 const HALF = HUES / 2;
 
 /**
- * A number for the colour of each name: the same for the same names in any order, and
- * nearly unchanged by new names. The first ten numbers are used first.
+ * A number for the colour of each name. The same names in any order get the same numbers, and
+ * new names change few numbers. The first ten numbers are used first.
  * @param {string[]} names
  * @returns {Map<string, number>}
  */
@@ -29,7 +29,7 @@ export function placesOf(names) {
     [...names].sort().map((name) => {
       let first = 7;
       for (const letter of name) first = (31 * first + (letter.codePointAt(0) ?? 0)) % 1_000_003;
-      // Neighbours in the first half differ most: so they are used before the second half.
+      // The hues of the first half differ most, so the first half is used before the second.
       const [one, other] = [given.slice(0, HALF), given.slice(HALF)];
       const half = Math.min(...one) <= Math.min(...other) ? 0 : HALF;
       const fewest = Math.min(...(half ? other : one));
@@ -47,7 +47,7 @@ export class Model {
     /** @type {string[]} */
     this.names = [];
     /** @type {number[]} */
-    this.parents = []; // by index; -1 for a root
+    this.parents = []; // index of each frame's parent; -1 for a root
     /** @type {boolean[]} */
     this.statics = [];
     /** @type {string[]} */
@@ -76,11 +76,11 @@ export class Model {
     /** @type {Map<string, { stamp: number, when: number }>} */
     this.heard = new Map(); // name → { stamp, when }: when the latest common stamp last changed
     this.heardAt = 0; // time of the last live poses, milliseconds
-    /** Arrival of the last stamp newer than all before, milliseconds, and the session's time then. */
+    /** Last time at which the newest stamp of all frames changed: arrival in milliseconds, and the session's time. */
     this.fresh = { newest: Number.NaN, when: 0, now: 0, isFirst: true };
-    this.silence = 0; // seconds since then, while nothing can arrive
+    this.silence = 0; // seconds since the last message, while the connection is interrupted
     /** @type {Map<string, number>} */
-    this.places = new Map(); // of the names, see `placesOf`
+    this.places = new Map(); // number of each name's colour, see `placesOf`
     /** @type {import("./wire.js").Poses[]} */
     this.history = [];
     this.historyBytes = 0;
@@ -88,7 +88,7 @@ export class Model {
     this.spots = new WeakMap(); // poses of the history
   }
 
-  /** Take in the names; true if they are another session's. */
+  /** Store the names of the frames; return true if the names are of another session. */
   setNames(message) {
     const another = this.epoch !== null && this.epoch !== message.epoch;
     if (another) {
@@ -112,9 +112,9 @@ export class Model {
     this.parents.forEach((parent, index) => (parent < 0 ? this.roots : this.children[parent]).push(index));
     this.order = [...this.roots];
     for (let at = 0; at < this.order.length; at++) this.order.push(...this.children[this.order[at]]);
-    // Frames that no root reaches form a loop: listed, never traversed.
+    // Frames that no root reaches form a loop; these frames are listed, but never traversed.
     const reached = new Set(this.order);
-    this.forget(); // the history uses the old numbers
+    this.forget(); // the history uses the old indices of the frames
     this.looped = this.names.map((_, index) => index).filter((index) => !reached.has(index));
     this.rootOf = new Array(this.names.length).fill(-1);
     for (const index of this.order) {
@@ -129,7 +129,7 @@ export class Model {
     this.historyBytes = 0;
   }
 
-  /** Take in poses. Live ones also extend the history of trails. */
+  /** Store poses; live poses also extend the history for trails. */
   setPoses(poses, when) {
     this.poses = poses;
     if (poses.at !== null) return;
@@ -142,7 +142,7 @@ export class Model {
     }
   }
 
-  /** Keep poses for trails, in the order of their moments. */
+  /** Store poses for trails, in the order of their times. */
   remember(poses) {
     if (poses.revision !== this.revision) return;
     let place = this.history.length;
@@ -168,7 +168,7 @@ export class Model {
   }
 
   /**
-   * The frame that carries another one: reached upwards over what is static or moved by these joints.
+   * The frame on which a frame is mounted: its nearest ancestor that is not static and not moved by a joint in `joints`.
    * @param {string | undefined} name
    * @param {Set<string>} joints frames that joints move
    */
@@ -179,7 +179,7 @@ export class Model {
     return at;
   }
 
-  /** Root of the largest tree: the first fixed frame. */
+  /** Root of the largest tree, which is the default fixed frame. */
   biggestRoot() {
     const sizes = new Map();
     for (const index of this.order) {
@@ -219,7 +219,7 @@ export class Model {
     this.listen(base);
   }
 
-  /** Note the frames whose latest common stamp with the fixed frame has changed. */
+  /** Store the time for each frame whose latest common stamp with the fixed frame has changed. */
   listen(base) {
     const { poses } = this;
     if (!poses || poses.at !== null) return;
@@ -244,7 +244,7 @@ export class Model {
     }
   }
 
-  /** Seconds since the frame's last new sample; 0 for static chains and for past moments. */
+  /** Seconds since the frame's last new sample; 0 for static chains and for past times. */
   age(index) {
     if (!this.poses || this.poses.at !== null) return 0;
     const heard = this.heard.get(this.names[index]);
@@ -258,7 +258,7 @@ export class Model {
     return (this.heardAt - this.fresh.when) / 1000;
   }
 
-  /** The same for display: data that was old when the page opened has the age of its stamp. */
+  /** Like `unheard`, for display; but data that was old when the page opened has the age of its stamp. */
   quiet() {
     if (!this.poses || !this.fresh.isFirst) return this.unheard();
     return Math.max(this.unheard(), (this.poses.now - this.poses.newest) / this.rate);
@@ -276,7 +276,7 @@ export class Model {
     return known(pose) ? normalized(pose) : null;
   }
 
-  /** Places of a frame in the fixed frame: [[x, y, z], …], oldest first, up to `until`. */
+  /** Positions of a frame in the fixed frame up to the time `until`, oldest first: [[x, y, z], …]. */
   trail(index, fixed, seconds, until) {
     const base = this.index.get(fixed);
     if (base === undefined || this.rootOf[index] !== this.rootOf[base]) return [];
@@ -290,7 +290,7 @@ export class Model {
     return points;
   }
 
-  /** Place of a frame at one time of the history, computed once. */
+  /** Position of a frame at one time of the history, computed once. */
   placed(poses, base, index) {
     let spots = this.spots.get(poses);
     if (!spots || spots.base !== base) {

@@ -2,15 +2,15 @@
 // Opening view if the user has chosen nothing yet: a pair, a camera, trails.
 
 const FOLLOWER = "turtle2";
-const LED = ["carrot1", "turtle1"]; // frames that turtle2 follows, the first that exists
-const TRAILED = 12; // moving frames; more trails would be a tangle
-const WHOLE = 3; // frames that move, of a robot with its odometry and a correction of it
-const FLAT = 1e-3; // of the world's size, at most, off the plane
+const LED = ["carrot1", "turtle1"]; // turtle2 follows the first of these frames that exists
+const TRAILED = 12; // largest number of moving frames with trails
+const WHOLE = 3; // largest number of moving frames with whole trails, as map, odom and base_link
+const FLAT = 1e-3; // largest distance from the plane, as a share of the world's size
 const LEVEL = 1e-3; // sine of half the angle out of the plane
 
 /**
- * The most informative pair: turtle2 and the frame it follows, as in the tutorial; else the end of
- * the longest moving chain, in its root. Null if no tree has two frames.
+ * The most informative pair: turtle2 and the frame that turtle2 follows, as in the tutorial; else the
+ * last frame of the longest moving chain, in the root of the chain. Null if no tree has two frames.
  * @param {import("./model.js").Model} model
  * @returns {{ target: string, source: string } | null}
  */
@@ -35,7 +35,7 @@ export function naturalPair(model) {
 }
 
 /**
- * Whether all frames are in one horizontal plane and turn only in it: then a map is enough.
+ * Whether all frames are in one horizontal plane and turn only in this plane, so that a view from above is enough.
  * @param {(number[] | null)[]} poses in one frame
  */
 export function planar(poses) {
@@ -51,7 +51,7 @@ export function planar(poses) {
 }
 
 /**
- * Whether moving frames get trails by default: not if there are many.
+ * Whether moving frames get trails by default, which is so if there are few moving frames.
  * @param {import("./model.js").Model} model
  */
 export function trailsPay(model) {
@@ -60,7 +60,7 @@ export function trailsPay(model) {
 }
 
 /**
- * Whether the whole path is drawn by default: if few frames move.
+ * Whether trails are whole paths by default, which is so if very few frames move.
  * @param {import("./model.js").Model} model
  */
 export function wholePays(model) {

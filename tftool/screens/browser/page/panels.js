@@ -4,13 +4,13 @@ import { number, stillness } from "./format.js";
 import { degrees, rpy } from "./maths.js";
 
 /**
- * Element by id. Untyped: the page is ours, and its tests click everything.
+ * Element by id. The result is untyped, because tests click every element of the page.
  * @type {(id: string) => any}
  */
 export const $ = (id) => document.getElementById(id);
 
 /**
- * Set a text only if it changes: a browser lays out again after each assignment.
+ * Set a text only if the text changes, because a browser computes the layout after each assignment.
  * @param {Element} element
  * @param {string} text
  */
@@ -18,7 +18,7 @@ function setText(element, text) {
   if (element.textContent !== text) element.textContent = text;
 }
 
-/** Put rows of term and values into a list; a value is text, or an array of numbers. */
+/** Fill a list with rows of a term and a value, which is a text or an array of numbers. */
 export function fill(list, rows) {
   while (list.children.length > 2 * rows.length) list.lastElementChild.remove();
   rows.forEach(([term, value, digits = 4], at) => {
@@ -182,7 +182,7 @@ export function showCounts(model, hidden) {
 export function showReach({ at, ends, moves, reach, span: { oldest, newest } }) {
   const line = $("scrub");
   line.disabled = reach.newest <= reach.oldest;
-  // Without duration or moving frames there is no time to go to.
+  // Without a time span, or without moving frames, the slider has no effect.
   $("time").hidden = line.disabled && (ends || !moves);
   if (line.matches(":active")) return;
   line.min = String(oldest);
@@ -208,7 +208,7 @@ export function showTime(timeline) {
   }
 }
 
-/** Give every panel with a head a button that collapses it. */
+/** Add a button to every panel with a heading; the button collapses the panel. */
 export function makeCollapsible() {
   for (const panel of document.querySelectorAll("#left, #right > .panel")) {
     const button = document.createElement("button");
@@ -228,7 +228,7 @@ export function makeCollapsible() {
   }
 }
 
-/** Show a message that disappears by itself; an empty one disappears at once. */
+/** Show a message that disappears by itself; an empty message hides the last one. */
 export function toast(text) {
   clearTimeout(toast.timer);
   $("toast").textContent = text;

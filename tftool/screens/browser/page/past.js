@@ -3,15 +3,15 @@
 // seconds, and stored while there is space.
 
 const PIECE = 5; // seconds
-const PLACES = 30; // a second
+const PLACES = 30; // positions per second
 const MOST_PIECES = 60;
-const MANY = 48; // pieces looked at; of a longer span they are longer
-const MOST_ASKED = 60; // frames at once
-const MOST_LETTERS = 4000; // of names at once
-const GROWN = 1; // seconds of new data after which a piece is asked for again
+const MANY = 48; // largest number of pieces; for a longer span, each piece is longer
+const MOST_ASKED = 60; // frames in one request
+const MOST_LETTERS = 4000; // letters of all names in one request
+const GROWN = 1; // seconds of new data after which a piece is requested again
 
 /**
- * @typedef {(number[] | null)[]} Places evenly spread over a piece; null where it is not known
+ * @typedef {(number[] | null)[]} Places positions evenly spread over a piece; null if unknown
  * @typedef {{ fixed: string, frames: string[], from: number, to: number, count: number }} Asked
  * @typedef {{ known: Map<string, Places>, asked: Set<string>, upto: number }} Piece
  */
@@ -26,7 +26,7 @@ export class Past {
     this.pieces = new Map();
   }
 
-  /** Forget everything: another tree, or another session. */
+  /** Drop all pieces, because the tree or the session is another one. */
   forget() {
     this.pieces.clear();
   }
@@ -45,7 +45,7 @@ export class Past {
    * @param {string[]} frames
    * @param {number} from
    * @param {number} until
-   * @param {number} newest moment there is
+   * @param {number} newest last time with data
    * @param {number} rate seconds of the session in a second
    */
   look(fixed, frames, from, until, newest, rate) {
@@ -83,7 +83,7 @@ export class Past {
   }
 
   /**
-   * What was asked for has come.
+   * Store the answer to a request.
    * @param {{ fixed: string, from: number, to: number, places: Record<string, Places> }} told
    */
   take({ fixed, from, to, places }) {
@@ -93,8 +93,8 @@ export class Past {
   }
 
   /**
-   * Places of a frame, oldest first, as far back as all pieces are there. Live data of
-   * other times must not replace them: after a jump it would show a path seen before.
+   * Positions of a frame, oldest first, as far back as all pieces are stored. Live data of other
+   * times must not replace missing pieces: after a jump, the trail would show another path.
    * @param {string} name
    * @param {number} from
    * @param {number} until
@@ -109,7 +109,7 @@ export class Past {
         continue;
       }
       const step = this.long / (places.length - 1);
-      // The last place of a piece is the first of the next.
+      // The last position of a piece is the first position of the next piece.
       for (let at = 0; at < places.length - 1; at++) {
         const moment = number * this.long + at * step;
         const place = places[at];

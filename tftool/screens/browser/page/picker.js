@@ -2,7 +2,7 @@
 // A field for the name of a frame, with matching names below it.
 import { offered } from "./match.js";
 
-const MOST = 100; // names shown at once; typing finds the others
+const MOST = 100; // names shown at once; the user finds further names by typing
 
 export class Picker {
   /** All names, for all pickers. @type {string[]} */
@@ -11,8 +11,8 @@ export class Picker {
   /**
    * @param {any} field
    * @param {any} list element for the names, shared by all pickers
-   * @param {(name: string) => void} choose takes the name; "" for none
-   * @param {boolean} optional whether there may be none
+   * @param {(name: string) => void} choose called with the chosen name; "" for no frame
+   * @param {boolean} optional whether the field may be empty
    */
   constructor(field, list, choose, optional) {
     this.field = field;
@@ -20,7 +20,7 @@ export class Picker {
     this.choose = choose;
     this.optional = optional;
     this.current = "";
-    this.at = 0; // the offer that Enter takes
+    this.at = 0; // number of the offered name that Enter chooses
     /** @type {string[]} */
     this.offers = [];
     for (const [key, value] of Object.entries({
@@ -86,7 +86,7 @@ export class Picker {
     if (over || !lines.length) {
       const line = document.createElement("li");
       line.className = "more";
-      line.textContent = over ? `${over} more: type to find them` : "no frame of that name";
+      line.textContent = over ? `${over} more: type to find them` : "no frame has that name";
       line.onpointerdown = (event) => event.preventDefault();
       lines.push(line);
     }
@@ -95,7 +95,7 @@ export class Picker {
     this.mark();
   }
 
-  /** Below the field, or above it where there is more room. */
+  /** Place the list below the field, or above the field if there is more room. */
   place() {
     const { left, bottom, top, width } = this.field.getBoundingClientRect();
     const { style } = this.list;

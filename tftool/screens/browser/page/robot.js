@@ -1,5 +1,5 @@
 // @ts-check
-// A robot's links as solids: shapes of its description, meshes from our server.
+// A robot's links as solids: shapes of the robot description, meshes from the server.
 import {
   ArrowHelper,
   Box3,
@@ -37,9 +37,9 @@ const MISSING = [0.95, 0.25, 0.3, 0.8];
 const MISSING_SIZE = 0.1; // metres
 const AXIS = "#ffd400";
 const AXIS_LENGTH = 0.2; // metres
-const SIDES = { fine: 48, plain: 32 }; // of round shapes; plain: without a graphics card
+const SIDES = { fine: 48, plain: 32 }; // number of sides of round shapes; plain: without a graphics card
 const CREASE = 0.7; // radians between two facets from which on their edge is sharp
-const SHADOW = 2.2; // of the robot's width
+const SHADOW = 2.2; // width of the shadow, in widths of the robot
 
 /**
  * @typedef {{ kind: string, origin: number[], size?: number[], radius?: number, length?: number,
@@ -55,7 +55,7 @@ export class Robot {
   /**
    * @param {import("three").Scene} scene
    * @param {() => void} changed called when a mesh was loaded, or failed
-   * @param {boolean} plain whether there is no graphics card, so that every vertex is costly
+   * @param {boolean} plain whether there is no graphics card; then every vertex is costly
    */
   constructor(scene, changed, plain) {
     this.scene = scene;
@@ -64,9 +64,9 @@ export class Robot {
     this.group = new Group();
     this.group.visible = false;
     /** @type {Map<string, { number: number, all: Group, visuals: Group, collisions: Group, axes: Group, loose: boolean }>} */
-    this.links = new Map(); // loose: whether it has parts that are drawn one by one
+    this.links = new Map(); // loose: whether the link has parts that are drawn one by one
     this.places = new Places(0);
-    /** Shapes that are drawn together: all but textured ones. */
+    /** Shapes that are drawn together: all shapes without textures. */
     this.solids = { visuals: new Solids(this.places), collisions: new Solids(this.places) };
     /** Collision shapes not shown so far: loaded when first shown. @type {[string, Shape][]} */
     this.unloaded = [];
@@ -82,13 +82,13 @@ export class Robot {
     above.position.set(0, 0, 1);
     const sun = new DirectionalLight("#ffffff", 1.6);
     sun.position.set(-3, -4, 8);
-    // Lights belong to the scene, as markers need them without a robot.
+    // The lights are in the scene, because markers need lights also without a robot.
     scene.add(above, sun, sun.target, this.group);
     this.shadow = shade();
     scene.add(this.shadow);
     /** @type {Box3 | null} around its shapes, in the fixed frame */
     this.box = null;
-    this.boxed = ""; // for what `box` was made
+    this.boxed = ""; // state for which `box` was computed
     /** @type {Set<string>} frames that joints move */
     this.joints = new Set();
   }
@@ -98,7 +98,7 @@ export class Robot {
     return this.shaped.has(frame);
   }
 
-  /** Contents of the picture by link: numbers of visuals, collisions and axes. */
+  /** Drawn parts of each link, for tests: numbers of visuals, collisions and axes. */
   drawn() {
     const links = {};
     for (const [frame, { all, visuals, collisions, axes }] of this.links) {
@@ -195,7 +195,7 @@ export class Robot {
           if (part instanceof Mesh) parts.push(part);
         });
         for (const part of parts) {
-          // STL and OBJ have no colour; the others have materials.
+          // STL and OBJ have no colour; the other formats have materials.
           const plain = /\.(stl|obj)$/i.test(address) || kind === "collisions";
           const tone = plain ? linear(color) : toneOf(part);
           if (tone && !shape.texture) {
@@ -237,8 +237,8 @@ export class Robot {
   }
 
   /**
-   * Find the box around the robot, once its meshes are there, where nothing but its joints moves it in
-   * the fixed frame: the ground is at its lowest point then.
+   * Compute the box around the robot when all meshes are loaded, if only joints move the robot in the
+   * fixed frame. The lowest point of the box is then the level of the ground.
    * @param {string | undefined} fixed
    * @param {import("./model.js").Model} model
    * @param {number} placed links
@@ -265,7 +265,7 @@ export class Robot {
   }
 
   /**
-   * Frame and place at which a ray hits the robot; null if it does not.
+   * Frame and position at which a ray hits the robot; null if the ray misses the robot.
    * @param {import("three").Raycaster} ray
    */
   pick(ray) {
@@ -344,7 +344,7 @@ function shade() {
 /**
  * Geometry of a primitive shape; null for a mesh. Cylinders are along z, as in ROS.
  * @param {Shape} shape
- * @param {number} sides of what is round
+ * @param {number} sides number of sides of round shapes
  */
 function solid({ kind, size = [1, 1, 1], radius = 0, length = 0 }, sides) {
   if (kind === "box") return new BoxGeometry(size[0], size[1], size[2]);
@@ -365,7 +365,7 @@ function linear(given) {
   return [color.r, color.g, color.b, alpha];
 }
 
-/** Colour of a mesh's part; null if it has a texture or several materials. */
+/** Colour of a mesh's part; null if the part has a texture or several materials. */
 function toneOf(part) {
   const { material, geometry } = part;
   if (Array.isArray(material) || material.map || material.vertexColors || !material.color) return null;
@@ -385,7 +385,7 @@ function paint(color) {
   return material;
 }
 
-/** Store a material's own opacity. */
+/** Store the original opacity of a material. */
 function remember(material) {
   for (const one of Array.isArray(material) ? material : [material]) one.userData.opaque ??= one.opacity;
 }
@@ -408,7 +408,7 @@ function release(part) {
   for (const material of Array.isArray(part.material) ? part.material : [part.material]) material.dispose();
 }
 
-/** Fetch and read a mesh; fails with a sentence. */
+/** Fetch and parse a mesh; a failure is an error with a sentence for the user. */
 async function load(address) {
   const answer = await fetchFile(address);
   if (!answer.ok) throw new Error((await answer.text()).trim() || `status ${answer.status}`);
@@ -418,7 +418,7 @@ async function load(address) {
   if (kind === ".obj") return cleaned(new OBJLoader().parse(await answer.text()));
   if (kind === ".dae") {
     const found = new ColladaLoader().parse(await answer.text(), folder);
-    if (!found) throw new Error("it is no Collada file");
+    if (!found) throw new Error("the file is not a Collada file");
     // The link determines the upward direction, as in rviz.
     found.scene.rotation.set(0, 0, 0);
     return cleaned(found.scene);

@@ -73,7 +73,7 @@ export class Scale {
 }
 
 /**
- * Shown gaps: of the given frames, or of all if none are given; adjacent ones are joined.
+ * Gaps to show: of the frames in `frames`, or of all frames if empty; adjacent gaps are merged.
  * @param {[string, number, number][]} gaps frame, from, to
  * @param {Set<string>} frames
  * @param {Span} span
@@ -98,7 +98,7 @@ export function shownGaps(gaps, frames, { oldest, newest }) {
 }
 
 /**
- * Round values at the side of a plot, at least `apart` pixels apart.
+ * Values of the ticks at the side of a plot: round numbers, at least `apart` pixels apart.
  * @param {[number, number]} limits
  * @param {number} height pixels
  * @returns {{ value: number, text: string }[]}
@@ -114,7 +114,7 @@ export function levels([least, most], height, apart = 18) {
 }
 
 /**
- * A series up to its last known place, followed by newer poses.
+ * A series up to the last known pose, followed by newer poses.
  * @param {any} series
  * @param {any[]} poses each with `moment` and the series' columns
  */
@@ -129,7 +129,7 @@ export function extended(series, poses) {
 }
 
 /**
- * The place of a moment in a series, with a fraction; null outside of it.
+ * Index of a time in a series, with a fraction; null outside of the series.
  * @param {number[]} times
  * @param {number} moment
  */
@@ -154,7 +154,7 @@ export const PLOTS = {
 };
 
 /**
- * The lines of a plot, from the series a server or a file answers with.
+ * The lines of a plot, from the series in an answer of a server or a file.
  * @param {any} series
  * @param {keyof typeof PLOTS} plot
  * @returns {{ name: string, values: (number | null)[] }[]}
@@ -170,10 +170,10 @@ export function linesOf(series, plot) {
   });
 }
 
-const LEAST_HEIGHT = 0.002; // metres or degrees: the legend says no more than thousandths
+const LEAST_HEIGHT = 0.002; // metres or degrees; the legend has three decimals
 
 /**
- * Limits of several lines, with a margin; never so close that noise fills the plot.
+ * Limits of several lines, with a margin; limits are never so narrow that noise fills the plot.
  * @param {{ values: (number | null)[] }[]} lines
  * @returns {[number, number]}
  */
@@ -214,7 +214,7 @@ export function runs(values, circular) {
 }
 
 /**
- * Last known value of a line: the newest ones are often unknown.
+ * Last known value of a line, because the newest values are often unknown.
  * @param {(number | null)[]} values
  */
 export function newestOf(values) {
@@ -223,7 +223,7 @@ export function newestOf(values) {
 }
 
 /**
- * Linear interpolation between two values of a line; null if one is missing.
+ * Linear interpolation between two values of a line; null if one of the values is missing.
  * @param {(number | null)[]} values
  * @param {number} place index, with a fraction
  * @param {boolean} circular whether they are degrees

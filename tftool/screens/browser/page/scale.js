@@ -1,8 +1,8 @@
 // @ts-check
 // Round lengths: the grid's cells and the scale bar.
 
-const CELL = 34; // pixels a cell is wide at least
-const PARTS = 4; // of a line, each a step further faded
+const CELL = 34; // smallest width of a cell, pixels
+const PARTS = 4; // parts of a line, each more faded than the part before
 
 /**
  * The least of 1, 2, 5, 10, 20, … that is not below a length.
@@ -18,7 +18,7 @@ export function round(length) {
 const tidy = (value) => Number(value.toPrecision(12));
 
 /**
- * Width of a grid cell: a power of ten, or half or a fifth of one.
+ * Width of a grid cell: a power of ten, or a half or a fifth of a power of ten.
  * @param {number} pixel metres
  */
 export function cellFor(pixel) {

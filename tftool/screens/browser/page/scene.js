@@ -21,23 +21,23 @@ import { THEMES } from "./themes.js";
 import { Turtles } from "./turtles.js";
 
 const AXES = ["#f0454b", "#3fc45c", "#3d84ff"];
-const LAMP = [-0.28, 0.34, 0.9]; // the way to the light, as seen from the camera
+const LAMP = [-0.28, 0.34, 0.9]; // direction of the light, seen from the camera
 const tone = (color) => new Color(color).toArray();
 const PAINTS = {
   x: tone(AXES[0]), y: tone(AXES[1]), z: tone(AXES[2]), hub: tone("#e9edf3"), shaft: tone("#cfbf57"), head: tone("#ff3d94"),
 };
 const OVER_ALL = 100; // render order, beyond that of turtles
 const FEW = 60; // frames that are drawn in full even without a graphics card
-const MOST_FINE = 400; // and with one
+const MOST_FINE = 400; // frames that are drawn in full with a graphics card
 const FONT = "600 12px system-ui, -apple-system, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif";
-const LINE = 22; // pixels, of a name with its halo
-const ROOMY = 0.84; // of the picture that the frames' origins fill: names and axes reach beyond
+const LINE = 22; // height in pixels of a name with its halo
+const ROOMY = 0.84; // share of the picture for the frames' origins; names and axes need the rest
 const SMALLEST = 0.56; // metres from the middle to the sides
 const CORNER = { width: 124, height: 108 }; // pixels of the scale and the axes in the corner
-const ARRANGED_EVERY = 5; // pictures, with many names
+const ARRANGED_EVERY = 5; // pictures between two placements of names, if there are many names
 const GREY = new Color(0.7, 0.7, 0.7).convertSRGBToLinear().r; // colour of stale frames
 
-/** Whether there is no graphics card, so that every pixel and vertex is costly. */
+/** Whether there is no graphics card; then every pixel and vertex is costly. */
 function drawsInSoftware() {
   const gl = document.createElement("canvas").getContext("webgl2");
   if (!gl) return false;
@@ -96,8 +96,8 @@ export class Stage {
     }
     this.width = this.height = 0; // of the window, CSS pixels
     this.ratio = 1; // canvas pixels per CSS pixel
-    this.scale = 1; // share of the 3-D picture's pixels, see pace.js
-    /** View of the grid in the last picture, and in the stored one. */
+    this.scale = 1; // share of the pixels that the 3-D picture uses, see pace.js
+    /** View of the grid in the last picture, and in the stored picture of the grid. */
     this.looked = { from: new Matrix4(), through: new Matrix4(), key: "", aside: false };
     this.extent = 5; // extent of the frames around the origin, metres
     /** Pixels that panels cover, at each side. */
@@ -105,7 +105,7 @@ export class Stage {
     /** @type {number[][]} */
     this.covered = []; // by panels: left, top, width, height
     /** @type {Map<string, number>} */
-    this.stood = new Map(); // places of names in the previous picture
+    this.stood = new Map(); // positions of names in the previous picture
     this.gone = ARRANGED_EVERY; // pictures since names were placed
     this.theme = THEMES.dark;
     this.point = new Vector3();
@@ -351,7 +351,7 @@ export class Stage {
     if (looked.aside) ground.lines.visible = false;
   }
 
-  /** Metres per pixel at the point looked at, that point, and the extent of view or frames. */
+  /** Metres per pixel at the point that the camera looks at, this point, and the extent of the view or the frames. */
   seen() {
     const { x, y } = this.controls[this.view].target;
     const corner = Math.hypot(this.width, this.height) / 2;
@@ -393,7 +393,7 @@ export class Stage {
 
   /**
    * Draw trails, and the pair's chain, which must not hide the axes.
-   * @param {any[]} trails {points, ahead, color, whole}; a whole one includes the path ahead
+   * @param {any[]} trails {points, ahead, color, whole}; whole: whether to include the path ahead
    * @param {number[][]} chain
    */
   drawUnder(trails, chain) {
@@ -461,7 +461,7 @@ export class Stage {
     this.drawCorner(pen, corner[0] + 8);
   }
 
-  /** Pixels of a chain of frames; empty if one is behind the camera. @param {number[][]} chain */
+  /** Pixels of a chain of frames; empty if one of the frames is behind the camera. @param {number[][]} chain */
   spots(chain) {
     const spots = chain.map((pose) => this.project(pose[0], pose[1], pose[2]));
     return spots.length < 2 || spots.includes(null) ? [] : /** @type {number[][]} */ (spots);
@@ -504,7 +504,7 @@ export class Stage {
       pen.setLineDash([]);
     }
     if (!distance) return;
-    // The text changes often: a cached picture of it would not be reused.
+    // The text changes often, so that a cached picture of the text would not be reused.
     pen.font = FONT;
     const [width, height] = [pen.measureText(distance).width + 8, LINE];
     const [x, y] = [(first[0] + last[0]) / 2 - width / 2, (first[1] + last[1]) / 2 - height / 2];
@@ -514,7 +514,7 @@ export class Stage {
     this.write(pen, distance, this.theme.accent, Math.round(x), Math.round(y));
   }
 
-  /** Draw names beside their frames; one that is moved aside gets a line. */
+  /** Draw names beside their frames; a name that is moved aside gets a line to its frame. */
   drawNames(pen, labels) {
     const seen = [];
     for (const label of labels) {
@@ -524,7 +524,7 @@ export class Stage {
       const [width, height] = [sign.width / this.ratio, sign.height / this.ratio];
       seen.push({ label, sign, x: spot[0], y: spot[1], width, height, first: label.first, was: this.stood.get(label.name) });
     }
-    // If there are many, names move with their frames, and are placed again every few pictures.
+    // If there are many names, they move with their frames, and are placed again every few pictures.
     const anew = seen.length <= MANY || ++this.gone >= ARRANGED_EVERY;
     if (anew) this.gone = 0;
     const stands = anew
@@ -539,7 +539,7 @@ export class Stage {
       this.stood.set(label.name, stand.place);
       pen.globalAlpha = label.alpha * (1 - 0.4 * label.grey) * (0.4 + 0.6 * label.dim);
       if (stand.moved) {
-        // To the nearest edge of the name.
+        // The line ends at the nearest edge of the name.
         const toX = Math.max(stand.left + 4, Math.min(x, stand.left + width - 4));
         const toY = Math.max(stand.top + 4, Math.min(y, stand.top + height - 4));
         pen.beginPath();
@@ -618,7 +618,7 @@ export class Stage {
     this.write(pen, length, this.theme.accent, Math.round(x - pen.measureText(length).width / 2), Math.round(y - LINE));
   }
 
-  /** Paint a name once, for all pictures: outlines of letters are costly. */
+  /** Paint a name once for all pictures, because outlines of letters are costly. */
   sign(name, color) {
     const key = `${this.ratio} ${color} ${name}`;
     const known = this.signs.get(key);

@@ -1,5 +1,5 @@
 // @ts-check
-// The view as part of the page's address, so that a link reproduces it.
+// The view as part of the page's address, so that a link reproduces the view.
 
 const NUMBERS = ["scale", "interval", "timeout", "length", "speed", "at", "opacity", "side"];
 const WORDS = ["fixed", "target", "source", "pair", "chosen", "only", "not", "view", "theme", "plot", "followed"];
@@ -36,8 +36,8 @@ export function write(state) {
 export const FILE = "tftool-view.html";
 
 /**
- * Link of a page at an address, and the places where it works: everywhere; beside the file,
- * which others may have in another folder; on this machine, while tftool runs; or nowhere.
+ * Link to a page, and where the link works: everywhere ("web"); for those who have the file, in any
+ * folder ("file"); on this machine while tftool runs ("here"); or nowhere ("none").
  * @param {string} href the page's own address
  * @param {string} hash the view
  * @returns {{ text: string, reach: "web" | "file" | "here" | "none" }}

@@ -36,7 +36,7 @@ export class Sliders {
     this.list.replaceChildren(...(rows.length ? [poses] : []), ...rows.map(({ row }) => row));
   }
 
-  /** A joint: its name and its position to be typed, and a slider between its limits; angles in degrees. */
+  /** Add the row of a joint: name, field for the position (angles in degrees), slider between the limits. */
   row({ name, unit, range, position }) {
     const [size, sign, digits] = unit === "rad" ? [180 / Math.PI, "°", 2] : [1, ` ${unit}`, 4];
     const make = (tag, parts) => Object.assign(document.createElement(tag), parts);

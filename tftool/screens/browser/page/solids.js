@@ -1,6 +1,6 @@
 // @ts-check
-// Many solids as one mesh: each vertex has the number of its link, and the links' poses are a
-// texture. Hundreds of shapes are drawn at once, and only the links' poses are sent to move them.
+// Many solids as one mesh: each vertex has the number of its link, and a texture has the poses of
+// the links. Hundreds of shapes are drawn in one call, and only the links' poses are sent to the GPU.
 import {
   BufferAttribute,
   Box3,
@@ -36,7 +36,7 @@ float lamp = 0.5 + 0.5 * dot(outward, vec3(-0.32, -0.42, 0.85));
 vShade = 0.5 + 0.14 * (1.0 + outward.z) + 0.34 * lamp * lamp;
 `;
 
-/** Poses of links, for every `Solids` of them. */
+/** Poses of links, shared by all `Solids` with these links. */
 export class Places {
   /** @param {number} count */
   constructor(count) {
@@ -64,7 +64,7 @@ export class Solids {
     /** @type {{ link: number, geometry: BufferGeometry, matrix: import("three").Matrix4, color: number[] }[]} */
     this.parts = [];
     this.isDirty = false;
-    this.isClear = false; // whether one of them is transparent by itself
+    this.isClear = false; // whether a part has a transparent colour
     this.material = new MeshBasicMaterial({ vertexColors: true, side: DoubleSide });
     this.material.onBeforeCompile = (shader) => {
       shader.uniforms.places = { value: places.texture };
@@ -162,7 +162,7 @@ export class Solids {
   }
 
   /**
-   * Nearest hit of a ray, and the number of the link; null if there is none.
+   * Nearest hit of a ray, and the number of the link; null if the ray hits no link.
    * @param {import("three").Raycaster} ray
    */
   pick(ray) {

@@ -1,5 +1,5 @@
 // @ts-check
-// The displayed time: the present, or a past one, at rest or playing.
+// The displayed time: the present, or a past time, paused or playing.
 
 /**
  * Span of the buffer, in seconds of the session.
@@ -13,7 +13,7 @@
  */
 
 const SHORTEST = 0.01; // seconds of the smallest span of the ruler
-const LONGEST_TICK = 0.25; // seconds; after being hidden, the page does not jump
+const LONGEST_TICK = 0.25; // seconds; a page that was hidden must not jump
 
 export class Timeline {
   /**
@@ -33,10 +33,10 @@ export class Timeline {
     this.window = null;
     this.zoomed = 0; // number of zooms and pans
     this.rate = 1; // session seconds per second
-    this.speed = 1; // of play, chosen by a person
+    this.speed = 1; // playback speed, chosen by the user
     this.tickedAt = 0;
     this.moves = true; // whether any frame is dynamic
-    this.ends = false; // a recording: playback has no present to reach
+    this.ends = false; // whether this is a recording, in which playback ends
     this.loops = false; // playback repeats from the start
   }
 
@@ -44,13 +44,13 @@ export class Timeline {
     return this.at !== null;
   }
 
-  /** Whether the buffer no longer holds the moment shown. */
+  /** Whether the displayed time is no longer in the buffer. */
   get forgotten() {
     return this.at !== null && this.at < this.reach.oldest;
   }
 
   /**
-   * Take in the buffer's span. The only place that does, so that the slider's limits are never old.
+   * Store the buffer's span. Only this function does, so that the slider's limits are never old.
    * @param {Reach} reach
    */
   setReach({ oldest, newest, now }) {
@@ -59,7 +59,7 @@ export class Timeline {
     this.hooks.reached(this.reach);
   }
 
-  /** Keep the zoomed window within the buffer, and let it follow the displayed time once inside. */
+  /** Keep the zoomed window within the buffer; let the window follow the displayed time. */
   settle() {
     const { window, reach } = this;
     const { oldest, newest } = reach;
@@ -76,9 +76,9 @@ export class Timeline {
   }
 
   /**
-   * Zoom, with one time at the same place of the ruler.
+   * Zoom, so that one time stays at the same position of the ruler.
    * @param {number} moment
-   * @param {number} factor of the span; Infinity for all of it
+   * @param {number} factor of the span; Infinity for the whole buffer
    */
   zoom(moment, factor) {
     const { oldest, newest } = this.span;
@@ -152,7 +152,7 @@ export class Timeline {
   }
 
   /**
-   * Whether poses at `at` (null: the present) are those displayed, and not late ones.
+   * Whether poses at the time `at` (null: the present) are for the displayed time, and not outdated.
    * @param {number | null} at
    */
   accepts(at) {

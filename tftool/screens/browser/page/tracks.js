@@ -1,8 +1,8 @@
 // @ts-check
-// The messages that are drawn beside the frames, by topic and in order of their stamps.
+// The messages that are drawn in addition to the frames, by topic and in the order of their stamps.
 
 const MOST_KEPT = 200; // messages of a live topic
-const MOST_PLACES = 600_000; // of all of them together
+const MOST_PLACES = 600_000; // positions of all messages of a live topic together
 
 /**
  * @typedef {{ kind: string, frame: string, root: string | null, pose: number[] | null, count: number,
@@ -56,7 +56,7 @@ function opened({ stamp, shapes }, packed) {
 }
 
 /**
- * Drop the oldest, but never the last.
+ * Drop the oldest messages beyond the limits, but never the last message.
  * @param {Message[]} messages
  */
 function shorten(messages) {
@@ -77,7 +77,7 @@ export class Tracks {
   }
 
   /**
-   * Add messages to the known ones.
+   * Add messages to the stored messages.
    * @param {PackedTrack[]} tracks
    * @param {import("./packed.js").Packed} packed
    * @param {boolean} whole whether these are all messages
@@ -88,7 +88,7 @@ export class Tracks {
       const track = known && !whole ? known : { topic, type, faults, whole, messages: [] };
       this.topics.set(topic, track);
       track.faults = faults;
-      // The last message is the present one, whatever its stamp: time may have restarted.
+      // The last message is the current one even if its stamp is older, because time may have restarted.
       const first = messages[0]?.stamp ?? Infinity;
       while (!whole && track.messages.length && track.messages[track.messages.length - 1].stamp >= first) track.messages.pop();
       for (const message of messages) {
@@ -100,13 +100,13 @@ export class Tracks {
     }
   }
 
-  /** Another session: drop the messages of the previous one. */
+  /** Drop the messages of the previous session. */
   forget() {
     for (const { topic, whole } of [...this.topics.values()]) if (!whole) this.topics.delete(topic);
   }
 
   /**
-   * Message of a topic at a time: the last one up to then; null for none.
+   * Last message of a topic up to a time; null if there is no such message.
    * @param {string} topic
    * @param {number | null} moment null for the latest
    */

@@ -20,7 +20,7 @@ export class Tree {
     this.filtered = ""; // inputs of the last choice of visible rows
     /** @type {Set<number>} */
     this.kept = new Set();
-    this.current = -1; // the one row that is a tab stop
+    this.current = -1; // the only row that is a tab stop
     list.addEventListener("keydown", (event) => this.press(event));
     list.addEventListener("pointerleave", () => handlers.hover(undefined));
   }
@@ -128,7 +128,7 @@ export class Tree {
     if (tell) this.handlers.fold(this.model.names[index], !open);
   }
 
-  /** Make a row the one that the tab key reaches. */
+  /** Make a row the only row that the Tab key reaches. */
   stop(index) {
     if (this.rows[this.current]) this.rows[this.current].item.tabIndex = -1;
     this.current = index;
@@ -176,7 +176,7 @@ export class Tree {
     if (!item.isConnected) this.rows[this.current]?.item.focus();
   }
 
-  /** Hide what a filter leaves out. */
+  /** Hide the rows that a filter leaves out. */
   filter(frames) {
     const key = frames.map(({ filtered }) => Number(filtered)).join("");
     if (key === this.filtered) return;

@@ -15,7 +15,7 @@ function ellipse(x, y, long, wide, turn = 0) {
   return new ShapeGeometry(new Shape(points));
 }
 
-/** A polygon inside the shell: one of its plates. */
+/** A polygon inside the shell: one plate of the shell. */
 function plate(...corners) {
   return new ShapeGeometry(new Shape(corners.map(([x, y]) => new Vector2(x, y))));
 }

@@ -67,11 +67,10 @@ export function same(one, other) {
 
 export class Wire {
   /**
-   * Handlers: open(), ended(reason), heard() at every message; names(message),
-   *  pair(message), range(message), poses(Poses),
-   *  tracks(tracks, packed, whole), drawn messages; series(message), marks(message),
-   *  robot(message), its shapes, joints and sliders; trails(message), poses of the past;
-   *  past(Poses), only for trails.
+   * Handlers: open(), ended(reason); heard() for every message; names(message), pair(message),
+   *  range(message), poses(Poses), series(message), marks(message) for these messages;
+   *  tracks(tracks, packed, whole) for drawn messages; robot(message) for a robot's shapes, joints
+   *  and sliders; trails(message) for positions of the past; past(Poses) for poses of trails.
    */
   constructor(handlers) {
     this.handlers = handlers;
@@ -112,7 +111,7 @@ export class Wire {
     return socket;
   }
 
-  /** Fetch the messages of a recording that are drawn. */
+  /** Fetch those messages of a recording that are drawn. */
   async fetchTracks() {
     const answer = await fetch(secured("tracks"));
     if (!answer.ok) return;

@@ -18,7 +18,7 @@ const UNITS = {
   cone: () => upright(new ConeGeometry(0.5, 1, SEGMENTS)),
 };
 
-/** Opacity of a solid of these colours: three.js has one for all of them. */
+/** Opacity of solids with these colours: three.js has one opacity for all solids of a mesh. */
 function glass(colors) {
   const opacity = colors?.[3] ?? 1;
   return { opacity, transparent: opacity < 1 };
@@ -59,7 +59,7 @@ export function words(shape, color) {
   pen.font = font;
   canvas.width = Math.ceil(Math.max(1, ...lines.map((line) => pen.measureText(line).width)));
   canvas.height = Math.ceil(1.2 * LETTER * lines.length);
-  pen.font = font; // a canvas forgets it with its size
+  pen.font = font; // set again, because a canvas resets its font when it is resized
   const colors = shape.colors();
   pen.fillStyle = `#${(colors ? shade(colors) : new Color(color)).getHexString()}`;
   pen.globalAlpha = colors?.[3] ?? 1;

@@ -12,7 +12,7 @@ const FLAT = 0.05; // metres
 export const shade = (colors, at = 0) => new Color().setRGB(colors[at], colors[at + 1], colors[at + 2], SRGBColorSpace);
 
 /**
- * The places of a shape, and their colours if it has any.
+ * The positions of a shape, and the colours of the positions if the shape has colours.
  * @param {import("../tracks.js").Shape} shape
  */
 export function geometry(shape) {
