@@ -14,7 +14,9 @@ def test_a_robot_is_published_without_a_screen(tftool, simulated, robot):
     result = tftool("robot", robot, "--no-screen", "--joint", "turn=0.5", "--for", "2")
 
     assert result.status == 0
-    assert result.out == "Publishing robot 'post': 3 links, 1 moving joint; --joint says where.\n"
+    assert (
+        result.out == "Publishing robot 'post': 3 links, 1 moving joint, positions from --joint.\n"
+    )
 
 
 @pytest.mark.parametrize(

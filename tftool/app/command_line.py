@@ -272,7 +272,7 @@ class HelpOptions(Command, shares=False):
     tftool help echo
     """
 
-    name: str | None = argument("What to explain.", metavar="[COMMAND]")
+    name: str | None = argument("Command to explain.", metavar="[COMMAND]")
 
 
 def run(options: HelpOptions) -> ExitStatus:

@@ -16,7 +16,8 @@ class CalibrateOptions(Command, shares=False, poses=True):
     such as odometry and a camera's SLAM, or an arm and a tag on it. The result is the pose of one
     moving frame in the other (the mount), the pose of one fixed frame in the other, and the clock
     offset, each with a 95 % interval. If the motions do not determine the mount, a sentence says
-    which motion to record next. The exit status is 0 if the mount is solved, also partly, else 1.
+    which motion to record next. The exit status is 0 if the mount is solved completely or partly,
+    and 1 otherwise.
 
     tftool calibrate run.mcap --moving odom:base_link --moving world:camera
     tftool calibrate arm.bag --moving base:tool0 --moving camera:tag
@@ -31,7 +32,7 @@ class CalibrateOptions(Command, shares=False, poses=True):
     )
     moving: list[str] | None = option(
         "Frames of a motion in tf, or a topic of Odometry or PoseStamped. Give the option once "
-        "for each of the two motions; a pose file needs none.",
+        "for each of the two motions; a pose file needs no --moving.",
         metavar="FIXED:MOVING|TOPIC",
     )
     planar: bool = flag(
@@ -40,7 +41,7 @@ class CalibrateOptions(Command, shares=False, poses=True):
     time_only: bool = flag("Measure only the clock offset, without the mount.")
     scale: bool = flag("Also estimate a factor for the translations of the first motion.")
     check: bool = flag(
-        "Compare the published mount with the result; exit status 1 if it is outside the interval."
+        "Compare the published mount with the result; exit status 1 outside the interval."
     )
     urdf: Path | None = option(
         "Robot description that contains the mount.", "--urdf", metavar="FILE", panel=MOUNT

@@ -9,8 +9,8 @@ from tftool.commands.shared.options import Json, Junit, argument, flag, option
 class CheckOptions(Command, shares=False):
     """Play scenarios on simulated time and check their expectations.
 
-    A line is printed for each scenario, and below it the failed expectations. After "why:" follow
-    the doctor's findings in the played frames. The exit status is 0 if all expectations are met, 1
+    The output has a line for each scenario, then the failed expectations, and after "why:" the
+    doctor's findings in the played frames. The exit status is 0 if all expectations are met, 1
     if not, 3 if a file cannot be read. With --run and --launch, nodes written for ROS 2 are tested
     in the scenario, without ROS. With --as-ros, packages are checked instead of scenarios: entry
     points, launch files, dependencies.

@@ -23,7 +23,7 @@ class DemoOptions(Command, hosts_turtles=True, recordings=True):
     time. The arrow keys drive turtle1, [ and ] move through time, F changes the fixed frame, o
     shows another scenario, q quits. After 5 s without a key, turtle1 drives by itself until a key
     is pressed or another terminal joins. Without a terminal, the command plays the scenario on
-    simulated time with its own script, prints the outcome, and exits with 1 if an expectation
+    simulated time with its script, prints the outcome, and exits with 1 if an expectation
     failed.
 
     tftool demo

@@ -25,13 +25,13 @@ class DiffOptions(Command, descriptions=True, urdf=True):
     """Say what differs between two sets of frames, link by link.
 
     A link is the transform from a frame to its parent. The report lists added and missing links,
-    frames with another parent, and links that are static in A or B and move in the other. It gives
+    frames with another parent, and links that are static only in A or only in B. The report gives
     the differences of static links in millimetres and degrees, and the differences of moving links
     at their common stamps: root mean square, maximum, and time of the maximum. The exit status is 1
     if anything differs by more than 1 mm or 0.1°, or than --mm, --deg, --rate-percent.
 
     With --ape or --rpe, two trajectories are compared instead; A is the reference. A source with a
-    single trajectory needs no option. Otherwise --pair TARGET:SOURCE names the frames; give it
+    single trajectory needs no option. Otherwise --pair TARGET:SOURCE names the frames; give --pair
     twice if A and B use different names.
 
     tftool diff monday.mcap robot.urdf

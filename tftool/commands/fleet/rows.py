@@ -88,7 +88,9 @@ class RowFile:
             # Unbuffered, so that the rows of one recording are written together or not at all.
             self._file = io.FileIO(self._growing, mode, opener=reader_there)
         except (OSError, ValueError, KeyError, TypeError) as error:
-            reason = getattr(error, "strerror", None) or "the file has other contents than rows"
+            reason = (
+                getattr(error, "strerror", None) or "the file does not contain rows of this command"
+            )
             what = "continued" if resume else "written"
             raise InputError(f"'{path}' cannot be {what}: {reason}.") from error
         if self._suffix == ".csv" and not self._done:
