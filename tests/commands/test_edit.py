@@ -110,7 +110,7 @@ def test_a_dry_run_writes_nothing(run, capsys):
         (["-o", "b.mcap", "--prefix", " "], 2, "is empty: write its name"),
         (["-o", "b.mcap", "--prefix", "x//y/"], 2, "an empty part between two slashes"),
         (["-o", "b.mcap", "--prefix", "r1/ "], 2, "is not a valid name of a frame"),
-        (["-o", "b.mcap", "--prefix", "/r1"], 2, "make r1base_link of base_link: end it in a"),
+        (["-o", "b.mcap", "--prefix", "/r1"], 2, "rename base_link to r1base_link: end the"),
         (["-o", "b.mcap", "--restamp", "now"], 2, "takes only 'log'"),
         (["-o", "b.mcap", "--everywhere"], 2, "--everywhere is only allowed with"),
         (["-o", "b.mcap", "--record-time"], 2, "--record-time is only allowed with"),
