@@ -274,7 +274,11 @@ def gap(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _turned_or_lossy(model: Model, track: Track, limits: Limits) -> Hit | None:
-    """Return a hit about short gaps: across a large turn, or many in an exact period; else None."""
+    """Return a hit about short gaps of an edge, or None.
+
+    The hit is about a gap across which the robot turned far, or about single samples that an exact
+    period lacks.
+    """
     if len(track.by_stamp) < limits["samples"] or not track.period or track.wild.any():
         return None
     steps = np.diff(track.sorted_stamps)
@@ -322,7 +326,15 @@ def _turned_or_lossy(model: Model, track: Track, limits: Limits) -> Hit | None:
 
 
 def _loss(track: Track, steps: Stamps, limits: Limits) -> str:
-    """Return how many samples are missing one by one from an exact period; "" for few samples."""
+    """Return a clause about single samples that are missing from an exact period.
+
+    The clause is empty if few samples are missing, or if the period is not exact.
+
+    Args:
+        track: The edge.
+        steps: Differences between consecutive stamps, nanoseconds, shape (n,).
+        limits: Thresholds of `gap`.
+    """
     periods = steps / track.period
     whole = np.rint(periods)
     lost = whole[(whole > 1) & (whole <= limits["few"])]
@@ -336,7 +348,7 @@ def _loss(track: Track, steps: Stamps, limits: Limits) -> str:
 
 
 _EXACT = 0.05
-"""Maximum deviation of an exact period, and maximum share of the steps that deviate more."""
+"""Maximum deviation of steps from an exact period, and maximum fraction of larger deviations."""
 
 
 def _repeated(model: Model, track: Track, limits: Limits) -> list[tuple[int, int]]:

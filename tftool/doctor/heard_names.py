@@ -96,10 +96,13 @@ _FIND_IT = Fix("find the node that should publish the frame, or another name for
 
 
 def _raw_input(model: Model, name: str) -> tuple[list[Heard], str]:
-    """Return the other messages in a frame that a localiser would place, and the node of all.
+    """Return the raw messages in a frame that is probably the input of a localiser.
 
-    Such a frame is on no robot, and one node sends all its messages: those with a position, and
-    those of a type of its own.
+    A localiser would place such a frame: tf has no robot, and one node sends all messages in the
+    frame, with and without a position.
+
+    Returns:
+        The topics without a position and the name of the node; empty for other frames.
     """
     raw = [heard for heard in model.heard if heard.frame == name and not heard.is_spatial]
     topics = {heard.topic for heard in model.heard if heard.frame == name}
@@ -255,7 +258,7 @@ def slash_twins(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _age_first(model: Model, heard: Heard) -> Fix:
-    """Return the next step for messages outside of the time of the transforms."""
+    """Return the remedy to try first for messages whose stamps no transform covers."""
     late = heard.median_latency
     if not model.evidence.timed or late < LAP:
         return Fix(f"first look why no transform covers the time of {heard.topic}; then")

@@ -1,4 +1,4 @@
-"""Check of laps: recordings in which time goes back."""
+"""Check for recordings in which time goes back, as at the next lap of a looped bag."""
 
 from collections.abc import Iterator
 
@@ -28,7 +28,7 @@ check = checks_of(Area.CLOCKS)
     "other checks, so all of them use only the first pass",
 )
 def time_jump_back(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Time went back: a looped bag, a reset simulation."""
+    """Time went back, as in a looped bag or after a reset of a simulation."""
     if not model.laps:
         return
     first, count = model.laps[0], _counts(model)
@@ -74,14 +74,14 @@ def time_jump_back(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _is_seen(model: Model) -> bool:
-    """Whether listeners can notice that time goes back: their own clock must do so."""
+    """Whether listeners can notice the jump, because their own clock also goes back."""
     read, _ = model.evidence.clock
     steps_back = bool((np.diff(read) < -LAP).any())
     return steps_back or any(track.families[0] for track in model.dynamic)
 
 
 def _counts(model: Model) -> list[int]:
-    """Return the number of moving transforms in each part between two jumps."""
+    """Return the number of moving transforms before, between and after the backward jumps."""
     logs = np.concatenate([np.zeros(0, np.int64), *(track.all_logs for track in model.dynamic)])
     parts = np.searchsorted([lap.log for lap in model.laps], logs, side="right")
     counts: list[int] = np.bincount(parts, minlength=len(model.laps) + 1).tolist()
@@ -89,7 +89,14 @@ def _counts(model: Model) -> list[int]:
 
 
 def _mixed(model: Model, count: int) -> str:
-    """Return what a buffer does with data from the past: it drops what is older than its cache."""
+    """Return a clause about a buffer that receives data from the past, and does not notice.
+
+    The buffer drops transforms older than its cache, and mixes the other old poses with newer ones.
+
+    Args:
+        model: Model of the evidence.
+        count: Number of all moving transforms.
+    """
     dropped, cache = 0, model.settings.cache_time
     for track in model.dynamic:
         newest = np.maximum.accumulate(track.all_stamps)

@@ -433,7 +433,7 @@ def _most_late(hit: Hit) -> int:
 
 
 def _falls_behind(model: Model, track: Track | Heard, limits: Limits) -> Hit | None:
-    """Return a hit if some samples of a transform are late while other data arrives in time."""
+    """Return a hit if some data of an edge or topic is late while other data arrives in time."""
     if len(track.stamps) < _FEWEST_LATE:
         return None
     if isinstance(track, Track):
@@ -471,14 +471,14 @@ def _falls_behind(model: Model, track: Track | Heard, limits: Limits) -> Hit | N
 
 
 def _is_regular_pose(heard: Heard) -> bool:
-    """Whether a topic has poses at one rate, as of motion capture, by its type and its stamps."""
+    """Whether a topic has poses at a constant rate, such as those of a motion capture system."""
     steps = np.diff(np.sort(heard.stamps))
     is_pose = heard.type in ("geometry_msgs/PoseStamped", "geometry_msgs/PoseWithCovarianceStamped")
     return is_pose and bool(np.mean(steps < 2 * np.median(steps)) > _REGULAR)
 
 
 _REGULAR = 0.95
-"""Share of the steps between stamps that are near the period of a regular topic."""
+"""Minimum fraction of steps between stamps that are near the period of a regular topic."""
 
 _MEDIAN = {"upto": "", "of": "median"}
 
