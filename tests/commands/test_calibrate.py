@@ -87,7 +87,7 @@ def test_people_get_the_mount_as_tf2_prints_it(tftool, words):
     assert "- Rotation: in RPY (degree)" in told
     assert "Fixed frames: world in odom" in told
     assert "Clock offset: t_A = t_B +0.3" in told
-    assert told.endswith("everything is seen.\n")
+    assert told.endswith("it determines the whole mount.\n")
 
 
 def test_one_recording_holds_both_chains(tftool, made, tmp_path):

@@ -97,7 +97,7 @@ def test_what_cannot_be_is_one_sentence_and_a_status(tftool, simulated, given, s
 @pytest.mark.parametrize(
     ("target", "source", "status", "sentence"),
     [
-        ("", "a", 2, "A frame's name is empty"),
+        ("", "a", 2, "TARGET or SOURCE is empty"),
         ("/a", "b", 2, "in tf2 frame_ids cannot start with a '/'"),
         ("turtle1", "turtel2", 4, '"turtel2" passed to lookupTransform argument source_frame'),
         ("[bold]", "\x1b[31m", 4, '"[bold]" passed to lookupTransform argument target_frame'),

@@ -126,7 +126,11 @@ def test_show_args_prints_what_a_file_takes(capsys):
     [
         (["run", "gone.py"], 3, "cannot read 'gone.py': No such file"),
         (["run", "--simulated", "x.py"], 2, "add --for SECONDS"),
-        (["run", "pkg_tf"], 2, "name an executable of package 'pkg_tf'. (dynamic_carrot"),
+        (
+            ["run", "pkg_tf"],
+            2,
+            "no executable of package 'pkg_tf' is named: add one. (dynamic_carrot",
+        ),
         (["run", "pkg_tff", "x"], 2, "did you mean 'pkg_tf'?"),
         (["run", "pkg_tf", "turtle_folowing"], 2, "did you mean 'turtle_following'?"),
         (["run", "turtlesim", "turtle_teleop_key"], 2, "teleop reads keys from a terminal"),
@@ -153,7 +157,11 @@ def test_show_args_prints_what_a_file_takes(capsys):
         ),
         (["launch", "pkg_tf", "x.launch.py"], 2, "has no launch file 'x.launch.py'"),
         (["launch", "gone.launch.py"], 3, "cannot read 'gone.launch.py'"),
-        (["run", *SIMULATED, "pkg_tf"], 2, "name an executable of package 'pkg_tf'. ("),
+        (
+            ["run", *SIMULATED, "pkg_tf"],
+            2,
+            "no executable of package 'pkg_tf' is named: add one. (",
+        ),
         (["run", *SIMULATED, "."], 2, "'.' is a folder: give a node's file, or PACKAGE EXECUTABLE"),
         (["launch", "nothing", "x"], 2, "there is no package 'nothing' below"),
         (["launch", "pkg_tf", "carrot.launch.xml", "x"], 2, "'x' is not a launch argument"),
@@ -465,7 +473,7 @@ def test_the_first_signal_ends_an_endless_loop_on_simulated_time_too(tmp_path, n
     ("words", "status", "told"),
     [
         (["nope.py"], 3, "cannot read 'nope.py'"),
-        (["pkg_tf"], 2, "name an executable of package 'pkg_tf'."),
+        (["pkg_tf"], 2, "no executable of package 'pkg_tf' is named: add one."),
         (["pkg_tf", "rotate", "--ros-args", "-p", "a=5"], 2, "a=5"),
         (["pkg_tf/pkg_tf/turtle_following.py", "--ros-args", "-p", "a=5"], 2, "a=5"),
     ],
@@ -514,7 +522,7 @@ def test_ros2s_words_ask_the_session_and_are_refused_with_a_sentence(capsys):
         == "tftool: 'tftool ros2' has no command 'bag info': use 'tftool info'.\n"
     )
     assert main(["run", "joint_state_publisher_gui", "joint_state_publisher_gui"]) == 2
-    assert "run 'tftool robot FILE' in one" in capsys.readouterr().err
+    assert "run 'tftool robot FILE' in another" in capsys.readouterr().err
 
 
 def test_a_viewer_of_ros_runs_the_command_of_the_same_purpose(tmp_path, tftool, monkeypatch):
@@ -592,7 +600,7 @@ def test_a_word_of_ros2s_has_help_as_there(capsys, words, told):
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["launch"], "See it from another terminal: tftool demo --join · tftool view\n"),
+        (["launch"], "Show this session from another terminal: tftool demo --join · tftool view\n"),
         (["launch", "--domain", "3"], "tftool demo --join --domain 3 · tftool view --domain 3\n"),
         (["launch", "--simulated"], None),
     ],

@@ -127,7 +127,7 @@ def test_several_trees_are_told_and_a_moment_of_the_past_too():
 def test_a_loop_is_drawn_once_and_said():
     lines = shown(snapshot(moving("a", "b"), moving("b", "a")))
 
-    assert any("a (a loop: it hangs from b)" in line for line in lines)
+    assert any("a (a loop: its parent is b)" in line for line in lines)
     assert sum("b1" in line for line in lines) == 2
 
 

@@ -406,7 +406,7 @@ def test_topics_of_a_closed_database_are_refused_and_not_counted_as_empty(tmp_pa
     with open_recording(path) as recording:
         pass
 
-    with pytest.raises(UsageError, match="is closed: read it inside"):
+    with pytest.raises(UsageError, match="is closed: read the recording inside"):
         _ = recording.topics
     assert recording.damage == ()
 

@@ -182,7 +182,7 @@ def test_a_closed_recording_says_so_and_keeps_what_was_read(tmp_path, name):
     with open_recording(path) as unread, open_recording(path) as read:
         edges = read.edges
     for ask in (lambda: unread.buffer, lambda: unread.headers("/scan"), lambda: unread.edges):
-        with pytest.raises(UsageError, match="is closed: read it inside"):
+        with pytest.raises(UsageError, match="is closed: read the recording inside"):
             ask()
 
     assert read.edges == edges
@@ -197,5 +197,5 @@ def test_messages_that_are_asked_for_once_it_is_closed_are_refused(tmp_path, nam
             begun, untouched = ask(recording, "/tf"), ask(recording, "/tf")
             next(begun)
         for messages in (begun, untouched):
-            with pytest.raises(UsageError, match="is closed: read it inside"):
+            with pytest.raises(UsageError, match="is closed: read the recording inside"):
                 next(messages)

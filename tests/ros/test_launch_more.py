@@ -320,7 +320,7 @@ def test_environments_are_pushed_popped_and_reset(tmp_path):
     )
 
     assert done.said("launch") == ["inner", "gone", "gone"]
-    with pytest.raises((NodeFailed, InputError), match="needs a PushEnvironment before"):
+    with pytest.raises((NodeFailed, InputError), match="add a PushEnvironment before"):
         described(tmp_path, "PopEnvironment()")
 
 

@@ -82,7 +82,7 @@ def _chain(model: Model, target: str, source: str) -> list[Track]:
         return list(model.dynamic)
     for name in (target, source):
         if name not in model.frames:
-            raise LookupException(f"No transform names '{name}'.", frame=name)
+            raise LookupException(f"No transform contains the frame '{name}'.", frame=name)
     path = model.path(source, target)
     if path is None:
         raise LookupException(f"No transforms connect '{source}' and '{target}'.")

@@ -216,7 +216,7 @@ def _row(
     info = branch.info
     name = names[info.frame]
     if branch.closes_loop:
-        name += f" (a loop: it hangs from {visible(info.parent or NONE)})"
+        name += f" (a loop: its parent is {visible(info.parent or NONE)})"
     told = () if info.parent is None else facts(info)
     if told and moving is not None:
         info = info._replace(is_static=info.frame not in moving)

@@ -227,13 +227,13 @@ def compare(
         shift = second.start - first.start
     elif both_move and (first.start < SIMULATED_BELOW) != (second.start < SIMULATED_BELOW):
         shift = second.start - first.start
-        notes.append("The two count on different clocks: each from its own start.")
+        notes.append("A and B use different clocks: the times of each are counted from its start.")
     children = list(dict.fromkeys([*held[0], *held[1]]))
     # An overflowing distance becomes infinite, without a warning.
     with np.errstate(over="ignore", invalid="ignore"):
         links = [_compared(child, first, second, held, shift, tolerance) for child in children]
     if any(one.note == APART for one in links):
-        notes.append("Moving links that share no time were not compared: try --align start.")
+        notes.append("Moving links without a common time were not compared: try --align start.")
     return Differences(
         first.name, second.name, tolerance, tuple(links), first.start, shift, tuple(notes)
     )
@@ -357,12 +357,12 @@ def _moving_offset(
         return None, APART
     stamps = stamps[:: -(-len(stamps) // MOST_MOMENTS)]
     if not (first.buffer.frame_exists(parent) and second.buffer.frame_exists(parent)):
-        return None, f"there is no '{parent}' in the other"
+        return None, f"the other side has no frame '{parent}'"
     old = first.buffer.lookup_transforms(parent, child, stamps, missing="nan")
     new = second.buffer.lookup_transforms(parent, child, stamps + shift, missing="nan")
     both = old.valid & new.valid
     if not both.any():
-        return None, f"it is not joined to '{parent}' in both at one time"
+        return None, f"the frame and '{parent}' are never connected in A and in B at one time"
     old, new, stamps = old[both], new[both], stamps[both]
     millimetres = 1000.0 * np.linalg.norm(new.translations - old.translations, axis=1)
     degrees = np.degrees(batch.angles_between(old.rotations, new.rotations))

@@ -117,7 +117,9 @@ def quaternion_from_matrix(matrix: Sequence[Sequence[float]]) -> Quaternion:
                     "the matrix is not a rotation: its rows are not perpendicular unit vectors"
                 )
     if a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g) < 0.0:
-        raise ValueError("the matrix is not a rotation: its determinant is negative, so it mirrors")
+        raise ValueError(
+            "the matrix is not a rotation: its determinant is negative, so the matrix mirrors"
+        )
     import numpy as np
     from transforms3d.quaternions import mat2quat
 

@@ -221,7 +221,7 @@ def _floats(numbers: Iterable[float], count: int, what: str) -> tuple[float, ...
         floats = tuple(float(number) for number in numbers)
     except OverflowError as error:
         # The message leaves out the numbers: a large int may have thousands of digits.
-        raise ValueError(f"a {what} is {count} numbers, and one of them is too large") from error
+        raise ValueError(f"a {what} has a number that is too large for a float") from error
     except (TypeError, ValueError) as error:
         raise ValueError(f"a {what} is {count} numbers, not {numbers!r}") from error
     if len(floats) != count:

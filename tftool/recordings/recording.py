@@ -145,8 +145,8 @@ class Recording:
         # A closed database would look like an empty one.
         if self._closed:
             raise UsageError(
-                f"Recording '{self.name}' is closed: read it inside the 'with' block that opened "
-                "it."
+                f"Recording '{self.name}' is closed: read the recording inside the 'with' block "
+                "that opened the recording."
             )
 
     # Content

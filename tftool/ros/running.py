@@ -60,7 +60,7 @@ def _need_executable(workspace: Workspace, target: str, rest: Sequence[str]) -> 
     known = ", ".join(sorted(found.scripts)) if found is not None else ""
     hint = f" ({known})" if known else ""
     raise UsageError(
-        f"name an executable of package '{target}'.{hint} To run a file, give its path"
+        f"no executable of package '{target}' is named: add one.{hint} To run a file, give its path"
     )
 
 

@@ -188,7 +188,7 @@ def run(options: CalibrateOptions) -> ExitStatus:
         ),
         (
             options.joint is not None and options.output is None,
-            "--joint is only allowed with -o FILE: add one.",
+            "--joint is only allowed with -o FILE: add -o FILE.",
         ),
     )
     _refuse_outputs(options.output, options.report, options.urdf, force=options.force)
@@ -249,7 +249,7 @@ def _refuse_outputs(
     for path, wanted in ((output, MOUNT_FILES), (report, (".html",))):
         if path is not None:
             if not path.name.endswith(tuple(wanted)):
-                raise UsageError(f"cannot write '{path}': end it in {', '.join(wanted)}.")
+                raise UsageError(f"'{path}' has no known suffix: end it in {', '.join(wanted)}.")
             refuse_existing(path, force=force)
     if output is not None and output.suffix == ".urdf" and urdf is None:
         raise UsageError(
@@ -269,7 +269,8 @@ def _print(found: Calibration, checked: PublishedMount | None, *, for_programs: 
         sys.stdout.write(f"{sentence}\n")
     if checked is not None and found and not outside:
         sys.stdout.write(
-            "The published mount is inside of the interval, or within 1 mm and 0.1° of it.\n"
+            "The published mount is inside of the interval, or differs from the result by at most "
+            "1 mm and 0.1°.\n"
         )
     return bool(outside)
 

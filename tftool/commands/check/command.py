@@ -175,7 +175,7 @@ def _recorded(
     except OSError as error:
         reason = error.strerror or error
         raise InputError(
-            f"'{visible(str(kept.parent))}' cannot be written to: {reason}."
+            f"The folder '{visible(str(kept.parent))}' cannot be written to: {reason}."
         ) from error
     # Imported here, because the recorder imports the writers of all containers.
     from tftool.world.nodes.recorder import recorded

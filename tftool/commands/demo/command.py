@@ -224,7 +224,9 @@ def _play(
     refuse_long_simulation(options.lasting)
     if not options.for_programs and sys.stdout.isatty():
         # A person at the terminal expects a screen.
-        notice(f"The demo's screen needs a terminal, and {lacking}: playing without it.")
+        notice(
+            f"The demo's screen needs a terminal, and {lacking}: the demo plays without a screen."
+        )
     defaults = scenario_named(options.scenario or HOME, expects=False).arguments
     around: Watch = nullcontext
     if options.recording is not None:

@@ -168,11 +168,11 @@ def _place_or_rate(place: str | None, rate: float | None) -> tuple[str | None, f
 def _check_names(*frames: str) -> None:
     for frame in frames:
         if not frame:
-            raise UsageError("A frame's name is empty: write its name, such as map.")
+            raise UsageError("TARGET or SOURCE is empty: write the name of a frame, such as map.")
         if frame.startswith("/"):
             raise UsageError(
                 f"Frame \"{frame}\": in tf2 frame_ids cannot start with a '/'. "
-                f"Ask for {frame.lstrip('/') or 'its name without it'}."
+                f"Write {frame.lstrip('/') or 'the name without the slash'}."
             )
 
 

@@ -99,7 +99,7 @@ def _frame(option: str, text: str) -> str:
     """Check a frame name or prefix, and return the name without a leading slash."""
     name = stripped(text)
     if not name.strip():
-        raise UsageError(f"{option}: a frame's name in '{text}' is empty: write its name.")
+        raise UsageError(f"{option}: '{text}' has an empty frame name: write the name of a frame.")
     if name != name.strip() or not name.isprintable() or len(name.encode()) > LONGEST_NAME:
         raise UsageError(f"{option}: '{text}' is not a valid name of a frame.")
     if name.startswith("/") or "//" in name:

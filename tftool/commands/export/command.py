@@ -83,7 +83,7 @@ def _refuse_misfits(form: Format, pairs: list[tuple[str, str]], options: ExportO
         ),
         (
             not form.is_trajectory and has_at,
-            "--at has no effect on static transforms: leave it out, or add --with-moving.",
+            "--at has no effect on static transforms: leave out --at, or add --with-moving.",
         ),
         (
             is_chosen(options) and not form.is_trajectory,

@@ -372,7 +372,8 @@ def _failure(error: Exception) -> str:
     """
     if isinstance(error, ModuleNotFoundError) and (error.name or "").startswith("tftool"):
         raise UsageError(
-            "The workers of the cluster do not have this version of tftool: install it there."
+            "The workers of the cluster do not have this version of tftool: install it on the "
+            "workers."
         ) from error
     if type(error).__name__ == "KilledWorker":
         return "the workers that read this recording were killed (too little memory?)"

@@ -298,7 +298,9 @@ def tell_where_to_look(connection: Connection, session: Session) -> None:
     if session.link is None or not sys.stderr.isatty():
         return
     domain = f" --domain {connection.domain}" if connection.domain else ""
-    notice(f"See it from another terminal: tftool demo --join{domain} · tftool view{domain}")
+    notice(
+        f"Show this session from another terminal: tftool demo --join{domain} · tftool view{domain}"
+    )
 
 
 def _hosted(

@@ -106,7 +106,8 @@ def pairs_and_place(words: list[str], given: list[str]) -> tuple[list[tuple[str,
     """
     if len(words) > (1 if given else 3):
         raise UsageError(
-            "With --pair, only one word, FROM, is allowed."
+            f"With --pair, FROM is the only word, but there are {len(words)}: leave out TARGET and "
+            "SOURCE."
             if given
             else f"expected TARGET SOURCE [FROM], not {len(words)} words."
         )

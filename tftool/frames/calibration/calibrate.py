@@ -486,15 +486,17 @@ def _one_axis(axis: Floats, turn: Floats, is_planar: bool) -> _Shown:
 
 def _reason(shown: _Shown) -> tuple[str, str | None]:
     if shown.axis is None:
-        return "The motion turns about two axes or more: everything is seen.", None
+        return "The motion turns about two axes or more: it determines the whole mount.", None
     if "roll" in shown.unseen:
         return (
-            "One motion is planar: height, roll and pitch of the mount are not seen.",
-            "tilt the robot as well, and use a source that sees it",
+            "One motion is planar: height, roll and pitch of the mount are not determined.",
+            "tilt the robot as well, and use a source that measures the tilt",
         )
     along = ", ".join(shown.unseen)
-    return f"The motion turns about one axis: the translation along it ({along}) is not seen.", (
-        TWO_AXES
+    return (
+        f"The motion turns about one axis: the translation along this axis ({along}) is not "
+        "determined.",
+        (TWO_AXES),
     )
 
 

@@ -199,7 +199,8 @@ def _whole_name(one: FixedLink) -> FixedLink:
     for name in (one.parent, one.child):
         if "\0" in name or _NOT_XML.search(name):
             raise InputError(
-                f"The frame name {name!r} has characters that this format cannot contain."
+                f"The frame name {name!r} has characters that a script or launch file cannot "
+                "contain."
             )
     return one
 
@@ -233,7 +234,7 @@ def _node_names(links: Sequence[FixedLink]) -> list[str]:
 
 def _attribute(text: str) -> str:
     if _NOT_XML.search(text):
-        raise InputError(f"The frame name {text!r} has characters that this format cannot contain.")
+        raise InputError(f"The frame name {text!r} has characters that XML cannot contain.")
     # A reader would convert a tab or a line end to a space.
     return quoteattr(text, {"\t": "&#9;", "\n": "&#10;", "\r": "&#13;"})
 

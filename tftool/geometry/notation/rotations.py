@@ -325,7 +325,7 @@ def _matrix(numbers: Sequence[float]) -> Written:
     if not apart < SLACK:
         raise UsageError(
             "The matrix is not a rotation: its rows are not perpendicular unit vectors, "
-            "or it mirrors."
+            "or the matrix mirrors."
         )
     notes: tuple[str, ...] = ()
     if apart > 1e-6:

@@ -164,7 +164,8 @@ def _split(argv: Sequence[str]) -> tuple[list[str], dict[str, str], bool]:
             value = next(rest, None)
             if value is None:
                 raise _refusal(
-                    f"Not enough arguments for {word}", "Write its value as the next word."
+                    f"Not enough arguments for {word}",
+                    f"Write the value of {word} as the next word.",
                 )
             name = word.removeprefix("--")
             if name not in FRAMES:

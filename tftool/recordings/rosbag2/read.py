@@ -387,7 +387,8 @@ class Sqlite:
             )
         except sqlite3.ProgrammingError as error:
             raise UsageError(
-                "The recording is closed: read it inside the 'with' block that opened it."
+                "The recording is closed: read the recording inside the 'with' block that opened "
+                "it."
             ) from error
         except _FAULTS as error:
             self._note(error)

@@ -315,7 +315,8 @@ def check(workspace: Workspace, package: str, executable: str) -> None:
     elsewhere = _ELSEWHERE.get((package, executable))
     if elsewhere is not None:
         raise HasItsOwnCommand(
-            f"'{package} {executable}' needs a terminal of its own: run '{elsewhere}' in one."
+            f"'{package} {executable}' needs a terminal of its own: run '{elsewhere}' in another "
+            "terminal."
         )
     known = [name for one, name in _OURS if one == package]
     known += [*found.scripts, *found.programs] if found is not None else []

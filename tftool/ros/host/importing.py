@@ -368,8 +368,8 @@ def ros_free(*, force: bool = False) -> Iterator["_Finder"]:
     found = real_ros()
     if found and not force:
         raise UsageError(
-            f"a real ROS 2 is sourced ({found}): run the file with it, or add --ros-free to "
-            "run it without ROS"
+            f"a real ROS 2 is sourced ({found}): run the file with ROS 2, or add --ros-free "
+            "to run the file without ROS"
         )
     with own_arguments(), environment(), ros_modules() as finder:
         yield finder

@@ -269,7 +269,7 @@ def _take(options: RosOptions, word: str, words: Iterable[str]) -> None:
         raise UsageError(f"'{word}' is not an option after --ros-args{hint}")
     value = next(iter(words), None)
     if value is None:
-        raise UsageError(f"'{word}' after --ros-args needs a value: write one after it")
+        raise UsageError(f"'{word}' after --ros-args needs a value: write the value after '{word}'")
     if known == "--param":
         add_parameter(options, value)
     elif known == "--remap":

@@ -266,7 +266,7 @@ class Program(Node):
         if self.strict:
             return self._ask_beside(request)
         if self._loop is None:
-            raise TftoolError(f"program '{self.name}' has not started: call this after its start")
+            raise TftoolError(f"program '{self.name}' has not started: wait until the program runs")
         return asyncio.run_coroutine_threadsafe(_as_coroutine(request), self._loop).result()
 
     def _ask_beside(self, request: Callable[[], Any]) -> Any:

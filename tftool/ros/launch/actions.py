@@ -182,7 +182,9 @@ class PopEnvironment(Action):
             UsageError: If no PushEnvironment comes before this action.
         """
         if not context.environments:
-            raise UsageError("this PopEnvironment needs a PushEnvironment before it")
+            raise UsageError(
+                "a PopEnvironment has no environment to restore: add a PushEnvironment before it"
+            )
         context.environment = context.environments.pop()
 
 

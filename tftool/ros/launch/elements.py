@@ -202,7 +202,9 @@ class _Yaml:
         for item in node.value:
             if not isinstance(item, yaml.MappingNode) or len(item.value) != 1:
                 where = self.where(item)
-                raise InputError(f"{where}: an action must be one key with its attributes below it")
+                raise InputError(
+                    f"{where}: an action must be one key, its name, with attributes below the key"
+                )
             key, value = item.value[0]
             parent.children.append(self.element(self.word(key), value, depth))
 

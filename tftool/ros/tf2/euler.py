@@ -163,7 +163,7 @@ def compose_matrix(
     """Return the 4×4 matrix for a rotation (roll, pitch, yaw in radians) and a translation."""
     if scale is not None or shear is not None or perspective is not None:
         raise NotImplementedError(
-            "compose_matrix supports only the arguments angles and translate here"
+            "tftool's compose_matrix supports only the arguments angles and translate"
         )
     matrix = np.identity(4) if angles is None else euler_matrix(*angles)
     if translate is not None:

@@ -145,7 +145,7 @@ def _way_out(topic: RecordedTopic) -> tuple[str, Callable[[bytes], bytes] | None
         MalformedMessage: If the type cannot be converted.
     """
     if not is_plain(topic.name.strip("/")):
-        raise InputError("the topic's name is not valid in ROS 2")
+        raise InputError(f"the name of topic '{topic.name}' is not valid in ROS 2")
     if topic.encoding not in ("cdr", "ros1"):
         raise InputError(f"the encoding of the messages, '{topic.encoding}', is unknown in ROS 2")
     full = full_name(topic.type)

@@ -259,7 +259,10 @@ class Noise(Node):
 
         super().__init__(world, name)
         if min(position, angle, drift, turn_drift) < 0:
-            raise UsageError("a standard deviation must be zero or more")
+            raise UsageError(
+                "a standard deviation must be zero or more, not "
+                f"{min(position, angle, drift, turn_drift):g}"
+            )
         self.parent, self.child = parent, child
         self.period = require_period(period)
         self._true = Transform(offset)
