@@ -162,7 +162,7 @@ def static_late(model: Model, limits: Limits) -> Iterator[Hit]:
     "which stores no publishers, the last {kept:g} messages together lack some",
     headline="statics are in {messages} messages",
     detail="{told} {lost}",
-    consequence="a player keeps only so many for late listeners",
+    consequence="a player of the recording keeps only the last messages for late listeners",
     fixes=(Fix("start listeners before playing"),),
     causes=("several static publishers",),
     links=threads("ros/ros_comm#706", "ros2/geometry2#585"),
@@ -490,10 +490,10 @@ def _is_robot(link: Track) -> bool:
     Severity.WARNING,
     rule="95 % of a topic's messages are older than the cache time (10 s, or --cache-time) when "
     "they arrive. A note for messages other than scans, point clouds and ranges",
-    headline="{topic} arrives later than the cache keeps its moment",
+    headline="{topic} arrives later than the cache time",
     detail="{topic}: {late:span} after its stamp (median), {worst:span} at most; the buffer "
     "keeps {cache:span}",
-    consequence='"extrapolation into the past" in a listener: it has dropped the transforms',
+    consequence='"extrapolation into the past" in a listener, which has dropped the transforms',
     causes=(
         "a slow detector",
         "a consumer that is behind",
@@ -542,7 +542,7 @@ def cache_short(model: Model, limits: Limits) -> Iterator[Hit]:
     headline="{where} {concerned:begins|begin} later than messages that need {concerned:it|them}",
     detail="{edge} begins at {begin:moment}: {messages} of {topic} can never be placed "
     "in {fixed}{aged}",
-    consequence="waiting does not help",
+    consequence="these lookups fail, however long a listener waits",
     causes=(
         "AMCL dates its first transform ahead (transform_tolerance)",
         "a node that starts later",

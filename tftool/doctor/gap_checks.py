@@ -180,7 +180,8 @@ def is_detection(model: Model, track: Track) -> bool:
     headline="{where} {concerned:has a gap|have gaps}{often}",
     detail="{edge}: nothing from {begin:moment} to {end:moment} ({length:span}; usually every "
     "{period:span}){why}{beside}",
-    consequence="lookups inside it interpolate across the gap, or refuse during it",
+    consequence="lookups at a time in the gap interpolate across the gap, or fail while the gap "
+    "lasts",
     causes=(
         "load",
         "a network that drops",
@@ -470,7 +471,8 @@ def coarse_odometry(model: Model, limits: Limits) -> Iterator[Hit]:
     "a position is in this frame or below it",
     headline="{where} {concerned:was|were} sent once, on /tf",
     detail="{edge}: at {stamp:moment}{beside}",
-    consequence="one sample answers only for its own stamp, and only while the cache keeps it",
+    consequence="lookups succeed only at the stamp of this sample, and only while the cache keeps "
+    "the sample",
     causes=("a mount sent with a TransformBroadcaster",),
     why="tf2 interpolates between two samples, and never extrapolates from a single sample",
     because_of=(

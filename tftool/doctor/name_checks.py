@@ -238,7 +238,7 @@ def namespace_twins(model: Model, limits: Limits) -> Iterator[Hit]:
     rule="transforms are sent on a topic other than /tf and /tf_static",
     headline="transforms are sent on {topics}",
     detail="{missing}",
-    consequence="a listener with default topics does not receive them",
+    consequence="a listener with default topics does not receive these transforms",
     causes=("a robot in a namespace whose /tf is remapped",),
     links=threads("iRobotEducation/create3_docs#402", "ros-navigation/navigation2#5449"),
 )

@@ -24,7 +24,7 @@ check = checks_of(Area.COVERAGE)
     "/clock then arrive in a burst",
     headline="nothing arrived for {length:span} on {streams} of {of} streams{often}",
     detail="from {begin:moment} to {end:moment} (log times): {names}; {lost}",
-    consequence="whatever was stamped then came late, in a burst, or never",
+    consequence="data stamped in this time arrived late, in a burst, or never",
     causes=(
         "a network that was gone",
         "a recorder or a disk that hung",

@@ -106,7 +106,7 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
     headline="{named} {many:has|have} two sources with different values{seen}",
     detail="{edge}: {first} and {second}, {told}, {apart:m} and {turned:deg} apart (median), "
     "{worst:m} and {most_turned:deg} at most",
-    consequence="{named} {many:jumps|jump} back and forth, and so does everything below",
+    consequence="{named} {many:jumps|jump} back and forth, and so do all frames below",
     causes=(
         "joint_state_publisher sends zeros beside the real source of joint states",
         "a controller or simulator plug-in and a filter publish the odometry",
@@ -367,7 +367,8 @@ def _same(track: Track, one: int, other: int, limits: Limits) -> bool:
     "fixed joint of the robot below the frame shows that the frame can move",
     headline="{where} never {concerned:changes and is|change and are} sent on /tf",
     detail="{edge}: {rate:.3g} Hz, for {lasts:span}",
-    consequence="if it is a mount, lookups wait for its next sample, unless it is dated ahead",
+    consequence="if the transform is a mount, lookups wait for its next sample, unless the stamps "
+    "are ahead",
     causes=("the static publisher of the old tf package",),
     links=threads("orbbec/ros_astra_camera#89"),
     limits={"samples": 20, "seconds": 60.0},

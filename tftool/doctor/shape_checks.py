@@ -218,7 +218,7 @@ def _messages_in(model: Model, tree: Tree) -> dict[str, int]:
     rule="parent and child of a transform have the same name",
     headline="{where}: a frame is its own parent",
     detail="{frame}: {count:times}",
-    consequence="tf2 drops it, and prints an error for each",
+    consequence="tf2 drops each such transform, and prints an error",
     fixes=(
         Fix("look at the frame names in the settings of its publisher: `{publishers} {tf_topic}`"),
     ),

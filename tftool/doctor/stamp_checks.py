@@ -26,7 +26,7 @@ COMPARE_CLOCKS = Fix("compare the clocks of the computers (`date`, `chronyc trac
     rule="a transform on a dynamic topic has stamp 0",
     headline="{where} {concerned:has|have} stamp 0",
     detail="{edge}: {count} of {of} samples",
-    consequence="lookups at any other time refuse; in a query, 0 means the latest time",
+    consequence="lookups at any other time fail; in a lookup, 0 means the latest time",
     fixes=(Fix("look at its publisher: `{publishers} {tf_topic}`"),),
     causes=(
         "the stamp is never set",
@@ -217,7 +217,7 @@ def repeated_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     "because their stamps may be those of a simulator's step or of a slower source",
     headline="{where} {concerned:sends|send} each message several times",
     detail="{topic}: {count} messages have {different} different stamps",
-    consequence="programs that use the topic do the work of each message again",
+    consequence="programs that use the topic process each message several times",
     limits={"share": 1.8, "samples": 20},
     because_of=(
         ("anything", "time-jump-back"),
@@ -272,7 +272,7 @@ _NOETIC = seconds(1_590_000_000)
     "(--cache-time). A note if the share of such samples is below {share:g}",
     headline="{where} {concerned:sends|send} samples that are too old to be kept",
     detail="{edge}: {count:times}, up to {behind:span} behind",
-    consequence="tf2 drops them and warns TF_OLD_DATA",
+    consequence="tf2 drops these samples, with the warning TF_OLD_DATA",
     fixes=(
         Fix("find where these stamps come from: `{publishers} {tf_topic}` lists the publishers"),
     ),
@@ -376,7 +376,7 @@ def out_of_order(model: Model, limits: Limits) -> Iterator[Hit]:
     headline="{where} {concerned:is|are} dated {upto}{late:span} before {concerned:its|their} "
     "arrival",
     detail="{what}: {late:span} late ({of}){varies}",
-    consequence="lookups at the present time refuse, or use older data; in rviz the frame lags or "
+    consequence="lookups at the present time fail, or use older data; in rviz the frame lags or "
     "disappears",
     causes=(
         "the stamp is copied from an old measurement",

@@ -32,7 +32,7 @@ _PICTURES = ("sensor_msgs/Image", "sensor_msgs/CameraInfo", "sensor_msgs/Compres
     rule="a number of a transform is NaN or infinite. A warning if the share of such samples of a "
     "moving transform is below {share:g}",
     limits={"share": 0.01},
-    headline="{where} {concerned:has|have} numbers that are none",
+    headline="{where} {concerned:has|have} numbers that are NaN or infinite",
     detail="{edge}: {count} of {of} samples, first at {first:moment}: {numbers}; {fate}",
     consequence="a lookup at these stamps gets other samples, or no position",
     fixes=(Fix("look at what its publisher did at that time: `{publishers} {tf_topic}`"),),
@@ -492,7 +492,7 @@ def _stem(name: str) -> str | None:
     "down)",
     headline="{where} {concerned:is|are} not in an optical frame",
     detail="{topic} is in {frame}{axes}",
-    consequence="a projection of its pixels looks along the wrong axis",
+    consequence="a projection of pixels looks along the wrong axis",
     causes=("the driver has one frame for body and picture",),
     links=(
         REP103,
@@ -550,7 +550,8 @@ def _axes_on_robot(model: Model, frame: str) -> tuple[Triple, Triple] | None:
     rule="a static below a base frame has a translation longer than {metres:g} m",
     headline="{where} {concerned:is|are} far away for a mount",
     detail="{edge}: {away:m}",
-    consequence="if it is in millimetres, everything below is a thousand times too far away",
+    consequence="if the mount is in millimetres, all frames below are a thousand times too far "
+    "away",
     fixes=(Fix("check whether it is in millimetres: tf uses metres"),),
     causes=("a CAD export in millimetres",),
     limits={"metres": 10.0},
