@@ -141,7 +141,7 @@ class Questions:
         return self._asked("echo", source, *when, frames=(target_frame, source_frame))
 
     def explain(self, target_frame: str, source_frame: str, source: str, at: str = "") -> str:
-        """Return why a lookup succeeds or fails, frame by frame, and what would make it succeed.
+        """Return why a lookup succeeds or fails, frame by frame, and a remedy for a failed lookup.
 
         Args:
             target_frame: The target frame of the lookup.

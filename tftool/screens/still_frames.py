@@ -14,11 +14,11 @@ SETTLING: Final[Duration] = seconds(3)
 
 
 class ShownFrames(Protocol):
-    """Protocol of frames to show on a screen; `World` and `StillFrames` implement it."""
+    """Protocol of frames that a screen can show; implemented by `World` and `StillFrames`."""
 
     @property
     def clock(self) -> Clock:
-        """Clock whose time the frames' stamps use."""
+        """Clock on which the frames' stamps are measured."""
 
     @property
     def buffer(self) -> Buffer:

@@ -112,7 +112,7 @@ class _Heard:
                 one()
 
     def _progress(self, simulated: Clock) -> Callable[[object], None]:
-        """Return a callback for messages that prints the progress of a long run."""
+        """Return a callback that prints, every 5 s, how much of a long run is played."""
         real = WallClock()
         told, start = real.now(), simulated.now()
 
@@ -169,7 +169,7 @@ class _Kept:
 def _recorded(
     scenario: Scenario, judge: Callable[..., Verdict], kept: Path, heard: _Heard
 ) -> Verdict:
-    """Judge a scenario while recording it; keep the recording only if an expectation failed."""
+    """Judge a scenario, and record the run; the recording stays only if an expectation failed."""
     try:
         kept.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:

@@ -97,11 +97,11 @@ class RowFile:
             self._file.write(self._table([self._columns]))
 
     def holds(self, source: str) -> bool:
-        """Return whether the file had rows of a recording when it was opened."""
+        """Return whether the file already had rows of a recording at opening."""
         return bool(self.earlier(source))
 
     def earlier(self, source: str) -> list[Row]:
-        """Return the rows of a recording that the file had when it was opened; else an empty list.
+        """Return the rows of a recording that the file already had at opening; else an empty list.
 
         Each row has at least the columns named in `judged`.
         """

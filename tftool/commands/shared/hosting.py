@@ -294,7 +294,7 @@ def open_empty_session(connection: Connection, *, simulated: bool = False) -> Se
 
 
 def tell_where_to_look(connection: Connection, session: Session) -> None:
-    """Print, if stderr is a terminal, a command that shows the new session in another terminal."""
+    """Print a command that shows the new session in another terminal, if stderr is a terminal."""
     if session.link is None or not sys.stderr.isatty():
         return
     domain = f" --domain {connection.domain}" if connection.domain else ""

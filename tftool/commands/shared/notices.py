@@ -94,7 +94,7 @@ def is_news(record: "LogRecord") -> bool:
 
 
 def tell_news(record: "LogRecord") -> None:
-    """Print a log message if it is a warning about the session."""
+    """Print a log message if the message is a warning about the session."""
     if is_news(record):
         notice(visible(record.text))
 
@@ -116,7 +116,7 @@ def tell_record(record: "LogRecord", *, label: str = "") -> None:
 
 
 class FoldedLog:
-    """Printer of a world's log, which prints equal messages once and counts their repeats."""
+    """Printer of a world's log, which prints equal messages once and counts the repetitions."""
 
     def __init__(self, *, whole: bool = False) -> None:
         """Start with all counts at zero.

@@ -38,7 +38,7 @@ def screen_lacks() -> str:
 
 
 class ScreenOptions(Protocol):
-    """Options of every command that has a screen; `Ascii` and `Light` declare them."""
+    """Options of every command that has a screen; `Ascii` and `Light` are their declarations."""
 
     ascii_only: bool
     light: bool

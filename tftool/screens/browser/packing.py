@@ -8,7 +8,7 @@ reads the block.
 Each column of numbers has the encoding that is smallest after deflate. In the header, a column is:
 
   {"value": x}            every number is x
-  {"bits": section}       doubles, each XORed with the double before it; the section has the first
+  {"bits": section}       doubles, each XORed with the previous double; the section has the first
                           bytes of all numbers, then the second bytes, up to the eighth
   {"whole": section,      whole numbers times `step`: their differences, taken `order` times, in
    "order": 1 or 2,       zigzag coding (0, -1, 1, -2 …), with bytes in the order of `bits`

@@ -83,7 +83,7 @@ class ShownWorld(Protocol):
 
     @property
     def clock(self) -> Clock:
-        """Clock whose time the frames' stamps use."""
+        """Clock on which the frames' stamps are measured."""
         ...
 
     @property
@@ -239,7 +239,7 @@ class PageServer:
             await self._server.wait_closed()
 
     def _note(self, loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
-        """Report once that no more connections are possible; asyncio would report each failure."""
+        """Report a lack of file descriptors, but only once; let asyncio report other errors."""
         error = context.get("exception")
         if not isinstance(error, OSError) or error.errno not in (errno.EMFILE, errno.ENFILE):
             loop.default_exception_handler(context)
