@@ -356,8 +356,8 @@ class Fiber:
         self.ended = True
         raise StuckError(
             f"'{self.name}' has computed for {self._give_up:g} s without waiting, so simulated "
-            "time could not advance: let the code wait with a timer or time.sleep. It was at: "
-            f"{place or 'no line of yours is running'}"
+            "time could not advance: let the code wait with a timer or time.sleep. "
+            + (f"The code was at: {place}" if place else "None of your lines was running.")
         )
 
     def _rests_within(self, limit: float) -> bool:

@@ -176,7 +176,9 @@ def _modules_of_cmake(text: str) -> list[str]:
 
 
 def _moved(folder: Path, share: str, data_files: Any) -> Iterator[tuple[str, Path]]:
-    """Yield (installed path, file) for each file whose path in the share directory differs.
+    """Yield (installed path, source file) for each file that setup.py installs at another path.
+
+    The paths are relative to the share directory, and to the source folder of the package.
 
     Args:
         folder: Source folder of the package.

@@ -66,11 +66,11 @@ class Element:
         return self.children
 
     def finish(self) -> None:
-        """Raise an error if the parser has not read an attribute or child element of this element.
+        """Raise an error if any attribute or child element of this element was left unread.
 
         Raises:
-            InputError: If a part of the element is unread; the text names the most similar part
-                that the parser has read.
+            InputError: If a part was left unread, for example because it is misspelt; the message
+                suggests the part with the most similar name that the parser has read.
         """
         for name in self.values:
             if name not in self.asked:

@@ -255,7 +255,7 @@ def get_logging_severity_from_string(log_severity: str) -> LoggingSeverity:
 
 
 def clear_config() -> None:
-    """Remove the lowest severities that were set for loggers."""
+    """Forget the level set for each logger, so that all loggers use the default level again."""
     program.current().log_levels.clear()
 
 
