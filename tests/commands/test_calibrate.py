@@ -221,7 +221,7 @@ def test_a_report_is_one_page_with_the_curves(tftool, words, tmp_path):
 @pytest.mark.parametrize(
     ("more", "told"),
     [
-        (["--moving", "odom"], "write FIXED:MOVING"),
+        (["--moving", "odom"], "takes FIXED:MOVING"),
         (["--moving", "a:b", "--moving", "c:d", "--moving", "e:f"], "at most twice"),
         (["--time-only", "--check"], "leave out the options of the mount"),
         (["-o", "mount.txt"], "end it in .urdf"),

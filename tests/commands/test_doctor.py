@@ -85,8 +85,8 @@ def test_the_page_of_the_checks_is_as_the_command_prints_it(tftool):
         (["--explain", "split-three"], "did you mean split-tree?"),
         (["turtles", "--select", "shap"], "did you mean shape?"),
         (["turtles", "--limit", "gap.second=1"], "gap has no threshold 'second'"),
-        (["turtles", "--limit", "gap=1"], "write ID.NAME=VALUE"),
-        (["turtles", "--limit", "gap.seconds=nan"], "write ID.NAME=VALUE"),
+        (["turtles", "--limit", "gap=1"], "takes ID.NAME=VALUE"),
+        (["turtles", "--limit", "gap.seconds=nan"], "takes ID.NAME=VALUE"),
         (["turtles", "--limit", "gop.seconds=1"], "There is no check 'gop'"),
     ],
 )

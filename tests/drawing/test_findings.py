@@ -38,7 +38,7 @@ def test_a_report_says_what_was_read_what_is_wrong_what_is_fine_and_how_much():
         "",
         "error  split-tree: camera_link is not joined to the tree of odom",
         "       tree 2: camera_link, camera_optical; used by /points (80 messages)",
-        "       so:  nothing in it can be placed in odom, and nothing of odom in it",
+        "       so:  lookups between these frames and odom fail",
         "       fix: nothing in the data says where to join camera_link; if it is mounted on the "
         "robot, measure where, and publish it:",
         "            ros2 run tf2_ros static_transform_publisher --x X --y Y --z Z --yaw A "

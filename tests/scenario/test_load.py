@@ -588,7 +588,7 @@ LOOKUP = "lookup: {target: a, source: b}"
         ),
         (
             f"{{at: 1 s, {LOOKUP}, value: {{rotation: [0, 0, 0, 1], yaw: 1}}}}",
-            "give a rotation or roll, pitch, yaw, not both",
+            "a value has a rotation, and also roll, pitch or yaw: leave one of the two out",
         ),
         (
             f"{{at: 1 s, {LOOKUP}, value: {{rotation: [0, 0, 1, 1]}}}}",

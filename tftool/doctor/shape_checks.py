@@ -113,7 +113,7 @@ def _circling(links: set[tuple[str, str]]) -> set[tuple[str, str]]:
     "one of these trees, or if the recording is shorter than {seconds:g} s",
     headline="{named} {many:is|are} not joined to the tree of {main_root}",
     detail="tree {number}: {frames}{users}{evidence}",
-    consequence="nothing in it can be placed in {main_root}, and nothing of {main_root} in it",
+    consequence="lookups between these frames and {main_root} fail",
     causes=(
         "the mount of a camera or lidar was never published",
         "a SLAM package has frame names of its own (camera_init, body)",

@@ -463,7 +463,10 @@ def _rotation(
     given = parts["rotation"]
     if given is not None:
         if angles:
-            raise reading.refuse(place, "give a rotation or roll, pitch, yaw, not both")
+            raise reading.refuse(
+                place,
+                "a value has a rotation, and also roll, pitch or yaw: leave one of the two out",
+            )
         norm = math.hypot(*given)
         if abs(norm - 1.0) > 1e-3:
             raise reading.refuse(

@@ -347,7 +347,7 @@ def _pair(word: str) -> tuple[str, str]:
     fixed, colon, moving = word.partition(":")
     if not (colon and fixed and moving):
         raise UsageError(
-            f"--moving '{word}': write FIXED:MOVING, as in odom:base_link, or a /topic."
+            f"--moving takes FIXED:MOVING, such as odom:base_link, or a /topic, not '{word}'."
         )
     return fixed, moving
 

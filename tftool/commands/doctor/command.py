@@ -135,7 +135,8 @@ def _examination(connection: Connection, options: DoctorOptions) -> Examination:
             number = -1.0
         if not limit or not 0.0 <= number < float("inf"):
             raise UsageError(
-                f"--limit {text}: write ID.NAME=VALUE with a number from 0 on, as in gap.seconds=2"
+                "--limit takes ID.NAME=VALUE, such as gap.seconds=2, with 0 or more as VALUE, not "
+                f"'{text}'"
             )
         limits.setdefault(check, {})[limit] = number
     topics = tuple(options.tf_topic or ())

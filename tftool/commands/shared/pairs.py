@@ -121,7 +121,7 @@ def pairs_and_place(words: list[str], given: list[str]) -> tuple[list[tuple[str,
     for text in given:
         target, colon, source = text.partition(":")
         if not (colon and target and source):
-            raise UsageError(f"--pair {text}: write TARGET:SOURCE, as in map:base_link.")
+            raise UsageError(f"--pair takes TARGET:SOURCE, such as map:base_link, not '{text}'.")
         pairs.append((target, source))
     return pairs, words[0] if words else None
 

@@ -142,7 +142,10 @@ def read_xml(data: bytes, path: Path) -> list[Element]:
         stack.append(element)
 
     def refuse(*_: Any) -> None:
-        raise InputError(f"{path}:{parser.CurrentLineNumber}: XML entities are not supported")
+        raise InputError(
+            f"{path}:{parser.CurrentLineNumber}: XML entities are not supported: write their text "
+            "instead"
+        )
 
     parser.StartElementHandler = start
     parser.EndElementHandler = lambda tag: stack.pop()
