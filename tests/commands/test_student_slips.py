@@ -434,7 +434,7 @@ def test_a_callback_that_never_returns_is_named_with_its_line(tftool, slip, monk
     [
         (["run", "chase", "turtle_folower"], "did you mean 'turtle_follower'?"),
         (["run", "chaes", "turtle_follower"], "did you mean 'chase'?"),
-        (["launch", "chase", "folower.launch.py"], "It has follower.launch.py."),
+        (["launch", "chase", "folower.launch.py"], "The package has follower.launch.py."),
         (["launch", "chaes", "follower.launch.py"], "did you mean 'chase'?"),
     ],
 )

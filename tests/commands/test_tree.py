@@ -164,7 +164,7 @@ def test_a_name_that_is_cut_is_said_to_be(tftool, tmp_path, monkeypatch):
         f"duration: 9 s\nnodes:\n  - static: {{parent: world, child: {name}}}\n", encoding="utf-8"
     )
 
-    assert "--wide shows them whole" in tftool("tree", file).out
+    assert "--wide prints the full names" in tftool("tree", file).out
     assert name in tftool("tree", file, "--wide").out
 
 
