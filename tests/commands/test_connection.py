@@ -96,7 +96,7 @@ def test_a_world_on_simulated_time_is_not_shared(tftool, option):
     result = tftool("tree", "robot", *option)
 
     assert result.status == 2
-    assert "'robot' is played on simulated time here, which cannot be shared" in result.err
+    assert "'robot' is played on simulated time, which other processes cannot share" in result.err
 
 
 def test_a_zenoh_configuration_that_is_none_is_a_sentence(tftool):

@@ -226,7 +226,7 @@ def test_the_past_of_a_recording_is_told_from_its_end(tftool, recording):
         (["--at", "1970-01-01T00:00:49Z"], 2, "begins at 50: the time 49 is before this start."),
         (["--at", "1e9"], 2, "ends at 60: the time 1000000000 is after this end."),
         (["--join"], 2, "which cannot be joined"),
-        (["--read-only"], 2, "which cannot be shared"),
+        (["--read-only"], 2, "which other processes cannot share"),
     ],
 )
 def test_what_a_recording_cannot_give_is_one_sentence(tftool, recording, words, status, told):

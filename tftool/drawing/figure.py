@@ -155,7 +155,7 @@ def _trajectories(
         return [one if isinstance(one, Trajectory) else trajectory_of(one) for one in given]
     buffer = buffer_of(frames)
     if target is None or source is None:
-        raise TypeError("name the pair of frames: plot(recording, 'map', 'base_link')")
+        raise TypeError("no pair of frames is given: call plot(recording, 'map', 'base_link')")
     return [sample(buffer, target, source)]
 
 

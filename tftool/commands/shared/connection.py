@@ -219,8 +219,8 @@ class Connection:
         if self.needs_link:
             flags = ", ".join(flag for reach in REACHES for flag in reach.FLAGS)
             raise UsageError(
-                f"'{visible(word or HOME)}' is played on simulated time here, which cannot be "
-                f"shared: leave out --join, {flags} and --read-only."
+                f"'{visible(word or HOME)}' is played on simulated time, which other "
+                f"processes cannot share: leave out --join, {flags} and --read-only."
             )
 
     def refuse_to_join(self, word: str | None) -> None:

@@ -147,7 +147,8 @@ def _static_publisher(asked: Asked) -> Node:
     said = static_arguments.parse(asked.arguments)
     if said is None:
         raise UsageError(
-            "'tftool static --help' describes the arguments of static_transform_publisher"
+            "static_transform_publisher has no --help here: 'tftool static --help' describes the "
+            "same arguments"
         )
     sample = TransformStamped(0, said.parent, said.child, said.transform)
     return StaticBroadcaster(asked.world, asked.name, transforms=[sample])
