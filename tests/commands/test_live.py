@@ -91,7 +91,7 @@ def test_a_session_has_no_past_to_ask_about(launched, words):
     asked = run(*words, "--at", "5")
 
     assert asked.returncode == 2
-    assert "A session is running here, the session of 'tftool launch" in asked.stderr
+    assert "A session is running, the session of 'tftool launch" in asked.stderr
     assert "scenario ('turtles --at 5') or a recording ('tftool record" in asked.stderr
     assert run(*words, "--at", "5", "--host").returncode == 0
 
