@@ -1,13 +1,12 @@
 """Simulated and real clocks with one interface.
 
-No other module uses `time` or `asyncio.sleep`. A waiter states its time and its position within
-that instant: (stamp, phase, rank, order of requests). The simulated and the real clock wake waiters
-in exactly this order, because asyncio itself breaks ties between timers of one instant
-unpredictably.
+No other module uses `time` or `asyncio.sleep`. Both clocks wake waiters exactly in the order of
+stamp, phase within the instant, rank within the phase, and time of the request. asyncio's own
+timers of one instant would be called in an unpredictable order.
 
 On the simulated clock the event loop runs in virtual time too. When every task sleeps, time jumps
 to the earliest waiter's time. So asyncio's own timeouts are in simulated time, and ten simulated
-minutes may take one second.
+minutes can take one real second.
 """
 
 import asyncio
@@ -48,8 +47,8 @@ class Clock(ABC):
         rate: Seconds of the clock per real second; infinite if simulated.
         interrupted: Whether a signal has asked the run on this clock to end. The flag is set when
             the signal arrives, even while a node blocks the event loop.
-        when_killed: Functions called before a second signal ends the process, such as one that
-            restores the terminal.
+        when_killed: Functions called before the stopper ends the process, such as one that restores
+            the terminal.
         stopper: Stopper that can end the run; None while nothing runs.
     """
 
@@ -86,7 +85,7 @@ class Clock(ABC):
         """Set the time after which a node that blocks the event loop is ended.
 
         Args:
-            until: End of the run, nanoseconds; None if a node may block for ever.
+            until: End of the run, nanoseconds; None for no limit.
         """
 
     @abstractmethod
@@ -135,7 +134,7 @@ class Clock(ABC):
         return future
 
     async def sleep_until(self, stamp: Stamp, phase: Phase = Phase.CONSUME, rank: int = 0) -> None:
-        """Wait until `stamp`; if `stamp` has passed, wait only for waiters that came earlier."""
+        """Wait until `stamp`; if `stamp` has passed, wait only until earlier waiters are woken."""
         await self.timer(stamp, phase, rank)
 
     async def sleep(self, duration: Duration, phase: Phase = Phase.CONSUME, rank: int = 0) -> None:
@@ -154,8 +153,8 @@ class Clock(ABC):
 class SimClock(Clock):
     """Simulated clock: no time passes while a task runs, and time jumps when all tasks wait.
 
-    Two runs are exactly equal. One waiter is woken at a time, and all effects of this waiter are
-    complete before the next waiter of the same instant is woken.
+    Runs of the same program give equal results. One waiter is woken at a time, and all effects of
+    this waiter are complete before the next waiter of the same instant is woken.
 
     Attributes:
         alarms: Number of timers of real time that are set.
@@ -193,12 +192,12 @@ class SimClock(Clock):
         return VirtualLoop(self)
 
     def limit(self, until: Stamp | None) -> None:
-        """End nodes that block simulated time for 20 s; if `until` is None, end no nodes."""
+        """End nodes that block the event loop for 20 real seconds; end none if `until` is None."""
         if self.stopper is not None:
             self.stopper.limit(None, None if until is None else STANDSTILL)
 
     def real_timer(self, patience: float) -> "asyncio.Future[None]":
-        """Return a future that is done after `patience` real seconds, in any simulated time."""
+        """Return a future that is done after `patience` seconds of real, not simulated, time."""
         loop = asyncio.get_running_loop()
         future: asyncio.Future[None] = loop.create_future()
 
@@ -292,7 +291,7 @@ def held(clock: Clock) -> Iterator[None]:
 
 
 class WallClock(Clock):
-    """Clock of real time since the Unix epoch, which may run faster or slower.
+    """Clock of real time since the Unix epoch, optionally faster or slower than real time.
 
     The system's clock is read once; then a monotonic clock counts. So later corrections of the
     system's clock have no effect.
@@ -311,8 +310,8 @@ class WallClock(Clock):
                 already moving when a user first sees it.
 
         Raises:
-            ValueError: If `rate` is not a positive number between a billionth and a billion, the
-                head start negative, or the epoch not after 0.
+            ValueError: If `rate` is not between a billionth and a billion, the head start is
+                negative, or the epoch is not after 0.
         """
         # Beyond these rates, real durations would not be finite numbers of seconds.
         if not 1e-9 <= rate <= 1e9:
@@ -395,7 +394,7 @@ class WallClock(Clock):
         asyncio.get_running_loop().call_soon(self._wake)
 
     def _moment_before_now(self, due: Stamp | None, moment: Stamp) -> Stamp | None:
-        """Return the next time to simulate of the head start; None after the head start."""
+        """Return the next simulated time of the head start; None if the head start is over."""
         real = self._real()
         behind = real - self._caught_up
         if due is not None and self._caught_up < due <= real and behind <= self._behind // 2:
@@ -428,7 +427,7 @@ class FollowedClock(WallClock):
 
         Args:
             told: Fixed time in nanoseconds; None for real time.
-            epoch: Time at which the clock began; None for `told`, or for the present.
+            epoch: Time at which the clock began; None for `told` if given, else the present.
         """
         super().__init__(epoch=told if epoch is None else epoch)
         self.fell_back: Listeners[Duration] = Listeners()
@@ -510,8 +509,8 @@ class FollowedClock(WallClock):
 def pace_of(clock: Clock) -> Clock:
     """Return the clock for waits that should take real time, such as "print every second".
 
-    If the time of `clock` comes from another process, which may pause time or run time at any rate,
-    a new clock of real time is returned; else `clock` itself.
+    If another process sets the time of `clock`, and so can pause or speed up time, a new clock of
+    real time is returned; else `clock` itself.
     """
     if not isinstance(clock, FollowedClock):
         return clock
@@ -526,7 +525,7 @@ def _set(future: "asyncio.Future[None]") -> None:
 
 
 def _others_wait_their_turn() -> bool:
-    """Return whether the running event loop has work to do (asyncio has no public function)."""
+    """Return whether the running event loop has ready callbacks; asyncio has no public test."""
     return bool(getattr(asyncio.get_running_loop(), "_ready", ()))
 
 

@@ -20,7 +20,7 @@ CLIENT: Final = "client"
 
 @dataclass(frozen=True, slots=True)
 class Timing:
-    """Deadline and liveliness of a topic's publishers, offered or requested.
+    """Deadline, liveliness and lifespan of a topic's publishers, offered or requested.
 
     Attributes:
         deadline: Longest time between two messages, nanoseconds; None for no limit.
@@ -48,7 +48,7 @@ class Quality:
         is_reliable: Whether every message must be delivered.
         is_latched: Whether late subscribers get earlier messages (transient local).
         keeps_all: Whether the queue is unlimited, so that `depth` has no effect.
-        timing: Deadline and liveliness; None if unknown.
+        timing: Deadline, liveliness and lifespan; None if unknown.
     """
 
     depth: int = 10

@@ -1,4 +1,4 @@
-"""Recording of a world's transforms into another buffer and a list, and of message headers."""
+"""Recording of a world's transforms in a second buffer and a list, and of message headers."""
 
 import asyncio
 from collections.abc import Callable, Coroutine, Iterator

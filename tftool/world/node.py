@@ -33,7 +33,7 @@ class Node(Resident):
         world: World that the node belongs to.
         name: Name in logs, also the authority of the node's transforms.
         rank: Number of the node in the order of joining the world.
-        phase: Turn of the node within an instant.
+        phase: Phase in which the clock wakes the node within an instant.
     """
 
     phase: ClassVar[Phase] = Phase.CONSUME
@@ -94,9 +94,9 @@ class Node(Resident):
     async def every(self, period: Duration, *, immediately: bool = False) -> AsyncIterator[Stamp]:
         """Yield the times of a timer, at exact multiples of the period from now on.
 
-        The first time is one period from now, as for a ROS timer. On the wall clock, a late node
-        gets a few missed times at once. A node that missed more times continues with shifted times.
-        A delay of a second is logged once.
+        The first time is one period from now, as for a ROS timer. If a node is a few periods late,
+        the missed times follow without a wait. If a node is later, the missed times are skipped.
+        The first skip of a second or more is logged.
 
         Args:
             period: Nanoseconds between two times.
@@ -132,7 +132,7 @@ class Node(Resident):
     # Talking
 
     def publish(self, topic: str, value: Any) -> None:
-        """Publish a value on a topic; a topic that does not exist gets the value's type."""
+        """Publish a value on a topic; a missing topic is created with the value's type."""
         publisher = self._publishers.get(topic)
         if publisher is None or publisher.kind is not type(value):
             publisher = self.publisher(topic, type(value))
@@ -152,7 +152,7 @@ class Node(Resident):
         callback: Callable[[T], object],
         quality: Quality = USUAL,
     ) -> Callable[[], None]:
-        """Call `callback` with each message of a topic; its exceptions make this node fail.
+        """Call `callback` with each message of a topic; if `callback` raises, this node fails.
 
         A latched subscription also gets earlier messages of latched publishers.
         """
@@ -216,7 +216,7 @@ class Node(Resident):
         self.parameters.set(name, value)
 
     def close(self) -> None:
-        """Close the node's subscriptions, publishers and services; called at its end."""
+        """Close the node's subscriptions, publishers and services; called when the node ends."""
         while self._stops:
             self._stops.pop()()
         self._publishers.clear()

@@ -169,8 +169,8 @@ def answered(
     Args:
         package: Package of the services' types.
         rows: For each service: name, field of the response, and a function that returns the field's
-            value for a request. From the name get_state follows the type GetState; "name:Type"
-            states another type.
+            value for a request. The type of a service "get_state" is GetState, unless another type
+            follows the name, as in "name:Type".
     """
 
     def handler(field: str, find: Callable[[Any], Any]) -> Answer:

@@ -66,8 +66,8 @@ class Stopper:
             loop: Event loop that runs in the calling thread.
             task: Task that the first signal cancels.
             now: Function that returns real time in seconds.
-            on_interrupt: Function called at the first signal, at once, in any thread.
-            when_killed: Functions called before the process is ended while the loop still runs.
+            on_interrupt: Function called immediately at the first signal, in any thread.
+            when_killed: Functions called before the stopper ends the process.
         """
         self.interrupted = False
         self._loop = loop
@@ -154,7 +154,7 @@ class Stopper:
                 self._look()
 
     def _pause(self) -> float | None:
-        """Return the real seconds until the thread may have to act without a signal."""
+        """Return the real seconds until the thread checks the limits if no signal arrives."""
         waits = []
         if self._interrupted_at is not None:
             waits.append(self._interrupted_at + PATIENCE - self._now())
@@ -242,7 +242,7 @@ class Stopper:
 def leave_screen() -> None:
     """Restore the terminal of a full-screen app; registered in `Clock.when_killed`.
 
-    This ends the alternate screen and the reports of mouse, focus and pastes, and shows the cursor.
+    The alternate screen and the reports of mouse, focus and pastes end; the cursor is shown.
     """
     for number in (2, 1):
         if os.isatty(number):

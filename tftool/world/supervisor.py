@@ -35,7 +35,7 @@ class Resident:
         """Do the resident's work; the resident ends when this coroutine returns."""
 
     def close(self) -> None:
-        """Close everything that the resident serves or subscribes to; called at its end."""
+        """Close everything that the resident serves or subscribes to; called when it ends."""
 
 
 async def live(world: "World", *, until: Stamp | None = None) -> None:

@@ -182,7 +182,7 @@ class Graph:
         return any(one.session not in guests for one in self._entities.values())
 
     def publisher(self, gid: bytes, topic: str) -> GraphEntity | None:
-        """Return the publisher with an id, by which a message names its sender.
+        """Return the publisher of a message from the id that the message contains.
 
         ROS 2 nodes send other ids than tftool computes from their announcements. So for an unknown
         id, the topic's only publisher that is not a tftool process is returned.

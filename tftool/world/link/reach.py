@@ -1,7 +1,7 @@
 """Base class with which a middleware declares its command-line options and addresses.
 
 A middleware derives a class from `Reach` in its folder, as in `zenoh/reach.py`; one line in
-`link_options.MIDDLEWARES` adds it. Commands do not name middlewares.
+`link_options.MIDDLEWARES` adds the class. Commands do not name middlewares.
 """
 
 from collections.abc import Mapping
@@ -92,12 +92,12 @@ class Reach:
 
     @staticmethod
     def has_members(domain: int) -> bool:
-        """Return whether a local process exists that this process can join, without connecting."""
+        """Return whether this process could join a local process; do not connect."""
         return False
 
     @staticmethod
     def frames_known(domain: int) -> list[str]:
-        """Return the names of the frames of this machine's processes, without connecting."""
+        """Return the names of the frames of this machine's processes; do not connect."""
         return []
 
     def place(self, domain: int) -> str:

@@ -158,7 +158,7 @@ class Middleware:
     ) -> Callable[[], None]:
         """Announce a node's subscription; return a function that ends the announcement.
 
-        Several subscriptions of a process share the messages of one `listen`.
+        Several subscriptions of a process share the messages of one call of `listen`.
         """
         return nothing
 

@@ -130,7 +130,7 @@ class Session:
 
 
 async def lasting(clock: Clock, duration: Duration | None) -> None:
-    """Wait for nanoseconds on the clock `pace_of(clock)`; wait for ever if `duration` is None."""
+    """Wait for a duration on the clock `pace_of(clock)`; if `duration` is None, for ever."""
     if duration is None:
         await asyncio.get_running_loop().create_future()
         return
@@ -166,7 +166,7 @@ def joined_session(
 
 
 def session_name(link: "Link", place: str) -> str:
-    """Return a name of a session for messages: of its host process, or of one of its ROS nodes."""
+    """Return a session's name for messages, from the name of its host or of one of its nodes."""
     if link.options.reach.only_reads:
         return visible(place)
     processes = link.graph.processes()

@@ -145,7 +145,7 @@ class Spawning:
     """State machine that spawns a turtle as in the tutorial; a node's timer calls `step`.
 
     The first step sends the request, a later step reads the response, and the next step returns
-    True. With a period of one second, the third second after the start is the earliest.
+    True. With a period of one second, `step` returns True after three seconds at the earliest.
     """
 
     def __init__(self, node: Node, x: float, y: float, theta: float, name: str) -> None:

@@ -64,8 +64,8 @@ class RobotStatePublisher(Node):
     """Node that broadcasts a robot's frames: fixed joints at the start, others from joint states.
 
     The node works like ROS 2's node of the same name. A message with unequal numbers of names and
-    positions is ignored. Only joints that a message names move, and joints that mimic a named
-    joint. Transforms get the stamp of the message.
+    positions is ignored. A message moves the joints that it names, and joints that mimic these
+    joints. Transforms get the stamp of the message.
     """
 
     phase: ClassVar[Phase] = Phase.BROADCAST

@@ -67,7 +67,7 @@ def require_turtle_name(name: str) -> str:
 
 
 def shown(name: str) -> str:
-    """Return another process's name, shortened and with control characters escaped."""
+    """Return a received name for a log message, shortened, with control characters escaped."""
     return repr(name if len(name) <= 60 else name[:59] + "…")[1:-1]
 
 
@@ -176,7 +176,7 @@ class Turtle:
     # One update
 
     def update(self, now: Stamp, say: Say, draw: Callable[[Segment], object]) -> Segment | None:
-        """Do the turtle's teleports and motion of one tick, up to the wall; store the pose.
+        """Teleport and move the turtle at one tick, but not out of the field; store the pose.
 
         Args:
             now: Time of the tick, nanoseconds.

@@ -175,7 +175,7 @@ class CycloneClient:
         self._put(payload[:_HEAD] + beside + payload[_HEAD:])
 
     def announce(self) -> tuple[bytes, bytes]:
-        """Show the client in the graph until `withdraw` is called; calls are counted.
+        """Show the client in the graph until `withdraw` is called as often as `announce`.
 
         Returns:
             GUIDs of the client's reader and writer.

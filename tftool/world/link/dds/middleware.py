@@ -234,7 +234,7 @@ class DdsMiddleware(Middleware):
         return stop
 
     def _asks_reliable(self, name: str, ros_type: str) -> bool:
-        """Return whether to request reliability: for tf always, else if all writers offer this."""
+        """Return whether to request reliability: for tf, or if all writers offer reliability."""
         if name in ("tf", "tf_static"):
             return True
         # A reader that requests more than a writer offers receives nothing from it.

@@ -44,7 +44,7 @@ class LibraryLog:
     """Error output of the DDS library, read through a pipe and passed to listeners.
 
     The library has no function that redirects errors. A domain keeps the value that C's variable
-    `stderr` has when the domain is created. Therefore `stderr` refers to a pipe during this time.
+    `stderr` has when the domain is created. Therefore `stderr` is a pipe while a domain is created.
     Writing to the pipe never blocks, and text that does not fit is dropped, because the library
     holds locks while it writes.
     """
@@ -266,7 +266,7 @@ class Participant:
             kind: Class of the messages.
             quality: Requested quality of service.
             on_sample: Function called with every message.
-            on_refused: Function called with the number of the policy that excludes a writer.
+            on_refused: Function called with the number of the QoS policy that excludes a writer.
         """
         inbox, participant = self.inbox, self
 

@@ -82,7 +82,7 @@ def network(places: Iterable[str], environment: Mapping[str, str] | None = None)
 
     Args:
         places: Interfaces and addresses from the option --dds-on.
-        environment: Environment variables of ROS 2; None for this process's.
+        environment: Environment variables; None for those of this process.
 
     Raises:
         LinkError: If a place is neither an interface nor an address, or the environment forbids
@@ -146,7 +146,7 @@ def _confined(variables: Mapping[str, str]) -> str:
 
 
 def _checked(place: str) -> str:
-    """Return the name of an interface unchanged, or the IP address of a machine by its host name.
+    """Return the name of an interface unchanged; convert the name of a machine to an IP address.
 
     Raises:
         LinkError: If the text is neither an interface nor an address.

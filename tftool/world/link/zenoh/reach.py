@@ -149,7 +149,7 @@ class ZenohReach(Reach):
 
     @staticmethod
     def has_members(domain: int) -> bool:
-        """Return whether a local process exists that this process can join; see `Reach`."""
+        """Return whether this process could join a local process; see `Reach.has_members`."""
         # Imported here: sockets and hashes take 10 ms, and most commands do not need this.
         from tftool.world.link.zenoh import rendezvous
 

@@ -82,7 +82,7 @@ def folder(environment: Mapping[str, str] = os.environ) -> Path:
 
 
 def has_members(domain: int, home: Path | None = None) -> bool:
-    """Return whether a local process exists that this process can join; change nothing."""
+    """Return whether this process could join a local process; remove no files."""
     place = _fitting((folder() if home is None else home) / str(domain))
     with contextlib.suppress(OSError):
         return next(_living(place, sweep=False), None) is not None
