@@ -1,8 +1,8 @@
 """Tree of a YAML text's values, each with its position in the text.
 
 Only the syntax of YAML is used (the event stream of the parser), not YAML's types. The reader of a
-value decides later on the type, so that `no` can be the name of a frame and `1e-3` a number. Tags
-cannot construct objects.
+value chooses the type, so that `no` can be the name of a frame and `1e-3` a number. Tags cannot
+construct objects.
 """
 
 from collections.abc import Iterator

@@ -1,4 +1,4 @@
-"""Readers that convert a YAML document of a known structure; mistakes are reported together.
+"""Readers that convert YAML of a known structure to values, and report all mistakes together.
 
 A reader is a function that converts a node of the YAML tree to a value. A reader that finds a
 mistake records the mistake and raises `Unreadable`. A reader of several values catches this
@@ -133,7 +133,7 @@ class Reading:
         return node.items
 
     def record(self, node: Node, known: Mapping[str, Key], what: str) -> dict[str, Any]:
-        """Read a mapping with known keys; return a value, perhaps the default, for each known key.
+        """Read a mapping; return the value of each known key, or the default of a missing key.
 
         Args:
             node: The mapping.

@@ -118,9 +118,9 @@ class Play:
 
 
 def left_to_a_person(scenario: Scenario) -> Scenario:
-    """Return a scenario for a person to play: without expectations and drive commands.
+    """Return a scenario without expectations, and without actions that drive turtles.
 
-    Key presses and `drive` actions are removed from the script; all other actions stay.
+    A person drives instead. The script keeps all actions except key presses and `drive`.
     """
     script = tuple(step for step in scenario.script if not isinstance(step.action, Drive | Press))
     return replace(scenario, script=script, expect=())

@@ -127,7 +127,7 @@ class Subject(Declared):
 
 @declare(SUBJECTS, "lookup", form=POSE_FORM)
 class Lookup(Subject):
-    """Question for the pose of a frame in another frame, at one time or (through `fixed`) two."""
+    """Question for a frame's pose in another frame, with two times if there is a fixed frame."""
 
     target: str = reads(values.frame)
     source: str = reads(values.frame)

@@ -187,7 +187,7 @@ class Verdict:
             then one for each expectation, in the order of the file.
         lasted: Duration of the run on the run's clock, nanoseconds.
         failure: Reason why the run ended early; "" for a complete run.
-        warnings: Sentences about mistakes in users' programs that have no effect on simulated time.
+        warnings: Hints about transform lookups in users' programs, as sentences.
     """
 
     scenario: str

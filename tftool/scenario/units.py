@@ -54,7 +54,7 @@ LONGEST = 24 * 3600.0
 
 
 def _measure(node: Node, reading: Reading, unit: Unit) -> tuple[str, str]:
-    """Split a text into number and unit, and check both; without a unit, return the default."""
+    """Split a text into number and unit, and check both; a missing unit becomes the default."""
     text = reading.text(node, unit.kind)
     match = _NUMBER.fullmatch(text)
     if match is None or len(text) > 60:
