@@ -89,7 +89,7 @@ def compose(outer: Pose, inner: Pose) -> Pose:
 
 
 def between(first: Pose, second: Pose) -> Pose:
-    """Return the pose `b_from_c` for `first`, the pose `a_from_b`, and `second`, `a_from_c`.
+    """Return the pose `b_from_c` from the poses `a_from_b` (`first`) and `a_from_c` (`second`).
 
     The rotation is applied to the difference of the positions, so equal positions give exactly
     zero.

@@ -167,7 +167,7 @@ NAMED_FORMS: Final = (*NOTATIONS, "matrix")
 
 
 def notation_of(form: str) -> Notation:
-    """Return the notation with a name in `FORMS`; the name "matrix" has no `Notation`."""
+    """Return the notation called `form`, a name in `FORMS` other than "matrix"."""
     return NOTATIONS.get(form) or EULER[form]
 
 

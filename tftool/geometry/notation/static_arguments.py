@@ -152,7 +152,7 @@ def _is_number(word: str) -> bool:
 
 
 def _split(argv: Sequence[str]) -> tuple[list[str], dict[str, str], bool]:
-    """Separate positional arguments from options with values."""
+    """Return (positional arguments, values of options by name, whether help is requested)."""
     words: list[str] = []
     given: dict[str, str] = {}
     asks_for_help = False
