@@ -432,7 +432,7 @@ class Fiber:
 
 
 def current() -> Fiber | None:
-    """Return the fiber of the calling thread; None in the event loop's and other threads."""
+    """Return the fiber of the calling thread; None if the thread has no fiber."""
     return getattr(_local, "fiber", None)
 
 

@@ -72,7 +72,7 @@ class StateMonitor:
         return bool(owner.ask(lambda: self._wait(owner, take, length)))
 
     def sleep(self, owner: Any, length: Duration, is_over: Callable[[], bool]) -> None:
-        """Block a thread of a program for a time, or until a function returns True.
+        """Block the calling thread until `is_over` returns True, at most for the time `length`.
 
         Args:
             owner: Program that the thread belongs to.
@@ -231,7 +231,7 @@ class UserCondition(threading.Condition):
                 self._waiters.remove(waiter)
 
     def wait_for(self, predicate: Callable[[], T], timeout: float | None = None) -> T:
-        """Block until `predicate` returns a true value or time is up; return its last value."""
+        """Block until `predicate()` is true or the timeout passes; return the last result."""
         owner = running_program()
         start = 0 if owner is None else owner.now()
         left, result = timeout, predicate()
@@ -254,7 +254,7 @@ class UserSemaphore(threading.Semaphore):
         self._cond: Any = UserCondition(UserLock())
 
     def acquire(self, blocking: bool = True, timeout: float | None = None) -> bool:
-        """Decrement the counter, waiting until it is above 0; return False at the timeout."""
+        """Wait until the counter is above 0, then decrement it; return False at the timeout."""
         limit = _limit(blocking, timeout)
         with self._cond:
             if limit == 0.0 and not self._value:

@@ -127,7 +127,7 @@ def node_name_fault(name: str) -> Fault | None:
 
 
 def namespace_fault(namespace: str) -> Fault | None:
-    """Return the rule of ROS 2 that an absolute namespace breaks; None if it is valid."""
+    """Return the rule of ROS 2 that an absolute namespace breaks; None for a valid namespace."""
     if not namespace:
         return Fault("it must not be empty", 0)
     if not namespace.startswith("/"):

@@ -122,7 +122,7 @@ def read_package(folder: Path) -> Package | None:
 
 
 def _listed_files(data_files: Any) -> frozenset[str] | None:
-    """Return the files in the `data_files` of a setup.py; None if not all of the value is known."""
+    """Return the files in the `data_files` of a setup.py; None if the value is not fully known."""
     if not isinstance(data_files, list):
         return None
     listed: set[str] = set()
@@ -142,7 +142,7 @@ def _installed_by_cmake(
 
     The kind is PROGRAMS for programs in `lib`, whose installed path is relative to the prefix. The
     kind is FILES for all other files, whose installed path is relative to the share directory.
-    Files with the same relative path in the source folder are left out.
+    Files whose installed path equals the path in the source folder are left out.
     """
     pattern = r"^[ \t]*install\(\s*(PROGRAMS|FILES|DIRECTORY)\s+([^)]*)\)"
     for kind, call in re.findall(pattern, re.sub(r"#.*", "", text), re.M):
@@ -176,9 +176,9 @@ def _modules_of_cmake(text: str) -> list[str]:
 
 
 def _moved(folder: Path, share: str, data_files: Any) -> Iterator[tuple[str, Path]]:
-    """Yield (installed path, source file) for each file that setup.py installs at another path.
+    """Yield (installed path, source file) for each file that setup.py installs under a new path.
 
-    The paths are relative to the share directory, and to the source folder of the package.
+    The installed path is relative to the share directory; in `folder` the file has another path.
 
     Args:
         folder: Source folder of the package.
@@ -245,7 +245,7 @@ def _called(function: ast.expr) -> str:
 
 
 class _Literals:
-    """Evaluator of simple expressions in a setup.py, which does not execute the file.
+    """Evaluator of simple expressions in a setup.py; the file is never executed.
 
     The evaluator covers literals, variables, joined texts, and calls of `glob` and `os.path.join`.
     """

@@ -152,7 +152,7 @@ class Program(Node):
 
     @property
     def turn(self) -> Phase:
-        """Phase of each simulated instant in which the program's timers run.
+        """Phase, within each simulated instant, in which the program's timers run.
 
         Programs that only publish transforms run first, so that lookups in the same instant find
         the transforms.

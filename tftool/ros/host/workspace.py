@@ -83,10 +83,10 @@ WITH_MODULES: set[str] = set()
 
 
 class Workspace:
-    """Packages in the source folders below a folder and in the workspace around that folder.
+    """Packages in the source folders below the folder `start` and in the workspace around it.
 
     Attributes:
-        start: The folder, as an absolute path.
+        start: Absolute path of the folder.
     """
 
     def __init__(self, start: Path, near: Path | None = None) -> None:
@@ -191,7 +191,7 @@ class Workspace:
         return None
 
     def file_named(self, path: Path) -> Path | None:
-        """Return a file of a package for a path that the user wrote without the folders above.
+        """Find a file of a package by a path whose first folders the user has left out.
 
         Args:
             path: Path relative to the package, to its launch folder, to its Python package or to
@@ -215,7 +215,7 @@ class Workspace:
         """Return the package named `name`.
 
         Raises:
-            UsageError: If there is no such package; the text names a similar package, or all.
+            UsageError: If there is no such package; the text suggests a remedy.
         """
         found = self.packages.get(name)
         if found is None:

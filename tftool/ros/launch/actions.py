@@ -197,9 +197,9 @@ class ResetEnvironment(Action):
 
 
 class Push(Action):
-    """Action that opens a scope, until the next Pop.
+    """Action that opens a scope, which the next Pop closes.
 
-    At the end of the scope, launch arguments and environment variables get their earlier values.
+    The Pop restores the launch arguments and environment variables from before the scope.
     """
 
     def execute(self, context: LaunchContext) -> Any:
@@ -362,7 +362,7 @@ class RegisterEventHandler(Action):
         self.event_handler = event_handler
 
     def describe_conditional_sub_entities(self) -> list[tuple[str, list[Any]]]:
-        """Return the handler's class and actions; [] for a function that computes the actions."""
+        """Return the handler's class name and actions; no actions if a function computes them."""
         return [(type(self.event_handler).__name__, getattr(self.event_handler, "entities", []))]
 
     def execute(self, context: LaunchContext) -> Any:

@@ -109,7 +109,7 @@ def find_launch_file(workspace: Workspace, words: Sequence[str]) -> tuple[Path, 
         words: Words of the command line, which begin with `FILE` or `PACKAGE FILE`.
 
     Returns:
-        Path of the launch file, and the words after it.
+        Path of the launch file, and the remaining words.
 
     Raises:
         UsageError: If there is no such launch file; the text lists the package's launch files.

@@ -28,7 +28,7 @@ class LaunchDescriptionEntity:
         raise NotImplementedError
 
     def describe_sub_entities(self) -> Sequence[Any]:
-        """Return the actions inside this action or description; searched for declared arguments."""
+        """Return the inner actions, which the launch searches for declared arguments."""
         return []
 
     def describe_conditional_sub_entities(self) -> Sequence[tuple[str, Sequence[Any]]]:

@@ -54,10 +54,10 @@ class Launch(Node):
     """Node that executes a launch description, starts its programs and watches them.
 
     Attributes:
-        failed: Names in log lines of the programs whose exit status was not 0.
+        failed: Names (as in log lines) of the programs whose exit status was not 0.
         ended: Event that is set when everything that the launch started has ended.
         handlers: Registered event handlers.
-        labels: Names in log lines of tftool's built-in nodes, by node name.
+        labels: Names (as in log lines) of tftool's built-in nodes, by node name.
     """
 
     is_shown: ClassVar[bool] = False
@@ -305,7 +305,7 @@ class Launch(Node):
     def when_served(self, service: str, node_name: str, then: Callable[[bool], object]) -> None:
         """Wait for a service, then call a function.
 
-        The wait ends without the service if this launch runs no program named `node_name`.
+        If this launch runs no node named `node_name`, the wait ends without the service.
 
         Args:
             service: Name of the service.

@@ -282,7 +282,7 @@ MOST_EVENTS = 1000
 class EventQueue:
     """Queue that delays events until the current action has been executed.
 
-    A handler can therefore follow, in the launch file, the action whose events it handles.
+    In the launch file, a handler can therefore come after the action whose events it handles.
     """
 
     def __init__(self, tell: Callable[[Event], object]) -> None:

@@ -359,7 +359,7 @@ _READERS: dict[str, Callable[[Element], Any]] = {
 
 
 def _plain(kind: Any, element: Element) -> Any:
-    """Create an action of the class `kind` from an element whose attributes are its arguments."""
+    """Create an action of the class `kind`, with the element's attributes as keyword arguments."""
     given: dict[str, Any] = {}
     for one in inspect.signature(kind).parameters.values():
         if one.kind is not one.VAR_KEYWORD and one.name != "condition":

@@ -20,7 +20,7 @@ _FORMATS = {"default": _PLAIN, "default_with_timestamp": "{created:.7f} " + _PLA
 
 
 class _Screen(Handler):
-    """Log handler that writes to the present `sys.stdout`, even if a program replaces it."""
+    """Log handler that looks up `sys.stdout` for each record, because a program can replace it."""
 
     def emit(self, record: logging.LogRecord) -> None:
         """Write one log record as a line."""

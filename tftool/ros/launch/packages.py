@@ -43,10 +43,7 @@ def get_packages_with_prefixes() -> dict[str, str]:
 
 
 def get_resources(resource_type: str) -> dict[str, str]:
-    """Return a mapping from the names of packages to their source folders for the type "packages".
-
-    The mapping is empty for all other resource types.
-    """
+    """Return {package name: source folder} for the type "packages"; {} for all other types."""
     return get_packages_with_prefixes() if resource_type == "packages" else {}
 
 

@@ -21,7 +21,7 @@ def parsed(text: Any, where: str) -> list[Any]:
         where: "file:line" for error texts.
 
     Raises:
-        InputError: If a `$(…)` is not closed or not known, or there are too many.
+        InputError: If a `$(…)` is not closed or not known, or the text contains too many `$(…)`.
     """
     if str(text).count("$(") > DEEPEST:
         raise InputError(
@@ -42,7 +42,7 @@ _ESCAPED = tuple("$()'\"\\")
 
 
 def _end_of_quote(text: str, start: int) -> int:
-    """Return the index of the quote that closes the quote at `start`; -1 if it is not closed."""
+    """Return the index of the closing quote for the quote at `start`; -1 if there is none."""
     at = start + 1
     while at < len(text) and text[at] != text[start]:
         at += 2 if text[at] == "\\" else 1

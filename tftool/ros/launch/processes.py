@@ -330,6 +330,6 @@ def _uses_rclpy(file: Path, roots: Sequence[Path], seen: set[Path]) -> bool:
 
 
 def _texts(context: LaunchContext, given: Any) -> dict[str, str]:
-    """Return environment variables, a mapping or pairs, with their substitutions evaluated."""
+    """Return the environment variables in a mapping or in pairs, with substitutions evaluated."""
     pairs = given.items() if isinstance(given, Mapping) else given
     return {perform(context, key): perform(context, value) for key, value in pairs}

@@ -299,7 +299,7 @@ class FindPackageShare(Substitution):
         self.package = package
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the package's share directory; in a workspace, that is its source folder."""
+        """Return the package's share directory; for a package in a workspace, its source folder."""
         return str(context.workspace.share(perform(context, self.package)))
 
     @staticmethod

@@ -93,7 +93,7 @@ def service_fixture(scope: Any) -> Any:
 
 
 def _part_of_service(name: str, part: str) -> Callable[[Any], Any]:
-    """Return a function that creates, for a scope, a fixture for an attribute of `launch_service`.
+    """Return a function that takes a scope and returns a fixture for part of `launch_service`.
 
     Args:
         name: Name of the fixture.
@@ -127,7 +127,7 @@ def fixture(
     auto_shutdown: bool = True,
     **kwargs: Any,
 ) -> Any:
-    """Declare a fixture that starts a launch, as a decorator of a function.
+    """Turn the decorated function into a fixture that starts a launch.
 
     The function returns the launch description, or a sequence whose first item is the description.
 

@@ -187,7 +187,7 @@ def resolveProcesses(
     Args:
         info_obj: Record of processes.
         process: Action, or part of a process's name; None for all processes.
-        cmd_args: Arguments that a process found by name must have, or NO_CMD_ARGS.
+        cmd_args: Arguments that a process found by name must have; NO_CMD_ARGS for no arguments.
         strict_proc_matching: Whether a name may match only one process.
 
     Raises:

@@ -57,7 +57,7 @@ class _Loader(unittest.TestLoader):
         self._after_end = after_end
 
     def loadTestsFromTestCase(self, testCaseClass: Any) -> unittest.TestSuite:
-        """Return the tests of a class; an empty suite if the class belongs to the other loader."""
+        """Return the tests of a class; an empty suite if this loader does not load the class."""
         if getattr(testCaseClass, "__post_shutdown_test__", False) != self._after_end:
             return unittest.TestSuite()
         # Each launch needs its own copy of the class, which gets the launch's values.
@@ -74,7 +74,7 @@ def _cases(tests: Any) -> Iterator[Any]:
 
 
 def _given(function: Callable[..., Any], values: Mapping[str, Any]) -> Callable[..., Any]:
-    """Return the function with bound arguments: those of `values` that the function accepts."""
+    """Return `function` with the `values` bound whose names are arguments of the function."""
     wanted = inspect.signature(function).parameters
     return functools.partial(function, **{k: v for k, v in values.items() if k in wanted})
 

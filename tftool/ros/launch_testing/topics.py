@@ -164,5 +164,5 @@ class DataRepublisher:
         return len(self._republished)
 
     def get_republished(self) -> list[Any]:
-        """Return the received messages, without the changes, whose changed copies were sent."""
+        """Return the received messages whose changed copies were published."""
         return self._republished

@@ -223,7 +223,7 @@ class ActionServer(WorkQueue):
         self.put(lambda: self._consider(handle, goal))
 
     def withdraw(self) -> None:
-        """Close the server; reject goals that were not accepted before."""
+        """Close the server; reject goals that are not accepted yet."""
         super().withdraw()
         for stop in self._stops:
             stop()

@@ -212,11 +212,11 @@ class CallbackGroup:
         return getattr(entity, "callback_group", None) is self
 
     def can_execute(self, entity: Any) -> bool:
-        """Return whether a callback of this group may start now."""
+        """Return whether the group's rule permits a callback to start now."""
         raise NotImplementedError
 
     def beginning_execution(self, entity: Any) -> bool:
-        """Increment the number of running callbacks; return False if no callback may start now."""
+        """Count a callback as running; return False if the group's rule permits no callback now."""
         if not self.can_execute(entity):
             return False
         self.busy += 1
@@ -259,7 +259,7 @@ class TimerInfo:
 
 
 class Timer(NodeEntity):
-    """Timer that calls its callback once per period, first one period after its creation."""
+    """Timer that calls its callback once per period; the first call is after one period."""
 
     is_a_callback = True
 

@@ -149,7 +149,7 @@ class Future:
             call(callback)
 
     def remove_done_callback(self, callback: Callable[[Any], object]) -> bool:
-        """Remove a callback added by `add_done_callback`; return whether it was found."""
+        """Remove a callback added by `add_done_callback`; return whether the callback was found."""
         with self._mutex:
             found = callback in self._callbacks
             self._callbacks[:] = [one for one in self._callbacks if one != callback]

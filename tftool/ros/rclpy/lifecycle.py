@@ -268,7 +268,7 @@ class LifecycleNodeMixin(ManagedEntity):
         return publisher
 
     def destroy_lifecycle_publisher(self, publisher: LifecyclePublisher) -> bool:
-        """Destroy a lifecycle publisher; return whether it belonged to this node."""
+        """Destroy a lifecycle publisher; return whether the publisher belonged to this node."""
         if publisher in self._managed_entities:
             self._managed_entities.remove(publisher)
         node: Any = self

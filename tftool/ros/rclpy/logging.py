@@ -34,7 +34,7 @@ class SkipFirst:
 
 
 class RcutilsLogger:
-    """Named logger, which drops messages below a lowest severity."""
+    """Named logger, which drops messages less severe than the logger's level."""
 
     def __init__(self, name: str = "") -> None:
         self.name = name
@@ -51,11 +51,11 @@ class RcutilsLogger:
         return RcutilsLogger(f"{self.name}.{name}" if self.name else name)
 
     def set_level(self, level: int) -> None:
-        """Set the lowest severity that this logger logs."""
+        """Set this logger's level, the lowest severity that the logger does not drop."""
         program.current().log_levels[self.name] = int(LoggingSeverity(level))
 
     def get_effective_level(self) -> LoggingSeverity:
-        """Return the lowest severity set for this logger or its nearest parent; by default INFO."""
+        """Return the level of this logger, else of the nearest parent with a level, else INFO."""
         levels = program.current().log_levels
         name = self.name
         while name:
@@ -231,7 +231,7 @@ def get_logger(name: str) -> RcutilsLogger:
 
 
 def set_logger_level(name: str, level: int, detailed_error: bool = False) -> None:
-    """Set the lowest severity of the logger `name`; less severe messages are dropped."""
+    """Set the level of the logger `name`, which then drops less severe messages."""
     program.current().log_levels[name] = int(LoggingSeverity(level))
 
 

@@ -188,7 +188,7 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
         self.allow_headerless = allow_headerless
 
     def add(self, msg: Any, my_queue: dict[int, Any], my_queue_index: int) -> None:
-        """Store a message; call the registered callbacks if the other filters have near messages.
+        """Store a message; call the registered callbacks if it completes a set of near stamps.
 
         For the arguments see `TimeSynchronizer.add`.
         """

@@ -219,13 +219,13 @@ class Node(NodeGraph, NodeParameters):
     ) -> QoSProfile:
         """Return the QoS profile for a new publisher or subscription.
 
-        With `options`, also declare parameters with which the user may change the profile.
+        With `options`, also declare parameters with which the user can change the profile.
 
         Args:
             kind: Class Publisher or Subscription.
             full: Full name of the topic.
             given: Profile, or depth of the default profile.
-            options: Policies that parameters may change; None for none.
+            options: Policies that get parameters; None to declare no parameters.
         """
         profile = profile_of(given)
         if options is not None:

@@ -257,8 +257,8 @@ class NodeParameters:
         """Set parameters one by one; return a SetParametersResult message for each parameter.
 
         Raises:
-            ParameterNotDeclaredException: If a parameter is not declared; parameters earlier in the
-                list are then set.
+            ParameterNotDeclaredException: If a parameter is not declared; only the
+                parameters before it in the list are then set.
             TypeError: If an item of the list is not a Parameter.
         """
         return [self.set_parameters_atomically([one]) for one in parameter_list]
@@ -408,7 +408,7 @@ class NodeParameters:
         return set_result(True, "")
 
     def add_on_set_parameters_callback(self, callback: Setter) -> None:
-        """Register a callback that accepts or rejects changes; the newest is called first."""
+        """Register a callback that accepts or rejects changes; newer callbacks are called first."""
         self._on_set_parameters_callbacks.append(callback)
 
     def remove_on_set_parameters_callback(self, callback: Setter) -> None:
@@ -424,7 +424,7 @@ class NodeParameters:
         self._post_set_parameters_callbacks.remove(callback)
 
     def add_pre_set_parameters_callback(self, callback: Callable[..., Any]) -> None:
-        """Register a callback that may rewrite a list of changes before the changes are checked."""
+        """Register a callback that can rewrite a list of changes before the changes are checked."""
         self._pre_set_parameters_callbacks.append(callback)
 
     def add_post_set_parameters_callback(self, callback: Callable[..., Any]) -> None:

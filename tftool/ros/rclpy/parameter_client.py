@@ -109,7 +109,7 @@ class AsyncParameterClient:
     def load_parameter_file(
         self, parameter_file: str, use_wildcard: bool = False, callback: Callback | None = None
     ) -> Future:
-        """Request to set the parameters of a file, which are accepted or rejected one by one."""
+        """Request to set a file's parameters, each of which the node accepts or rejects."""
         return self.set_parameters(_of_file(parameter_file, use_wildcard), callback)
 
     def load_parameter_file_atomically(
@@ -236,9 +236,9 @@ class ParameterEventHandler:
         _remove(self._of_all, handle)
 
     def configure_nodes_filter(self, node_names: Iterable[str] | None = None) -> bool:
-        """Return whether parameter events are limited to `node_names`: False if names are given.
+        """Return True if no names are given; otherwise False, because tftool ignores the names.
 
-        tftool cannot limit the events; this handler always gets the events of all nodes.
+        This handler always gets the parameter events of all nodes.
         """
         return not node_names
 

@@ -30,7 +30,7 @@ class _Policy(IntEnum):
 
 
 class HistoryPolicy(_Policy):
-    """Rule for a queue: store only the newest messages, as many as the depth, or all messages."""
+    """Rule for a queue: store all messages, or only the newest ones up to the queue's depth."""
 
     SYSTEM_DEFAULT = 0
     RMW_QOS_POLICY_HISTORY_SYSTEM_DEFAULT = 0
@@ -55,7 +55,7 @@ class ReliabilityPolicy(_Policy):
 
 
 class DurabilityPolicy(_Policy):
-    """Rule for late subscribers: send earlier messages too, or only new messages."""
+    """Rule for late subscribers: send stored messages and new messages, or only new messages."""
 
     SYSTEM_DEFAULT = 0
     RMW_QOS_POLICY_DURABILITY_SYSTEM_DEFAULT = 0

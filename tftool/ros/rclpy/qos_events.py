@@ -61,7 +61,7 @@ class QoSLivelinessChangedInfo(NamedTuple):
 
 
 class QoSIncompatibleInfo(NamedTuple):
-    """Number of incompatible endpoints, its change, and the policy that excludes the newest."""
+    """Number of incompatible endpoints, its change, and the policy that the newest one violates."""
 
     total_count: int = 0
     total_count_change: int = 0
@@ -69,7 +69,7 @@ class QoSIncompatibleInfo(NamedTuple):
 
 
 class QoSMatchedInfo(NamedTuple):
-    """Numbers of matched endpoints, since the start and at present, with the changes of both."""
+    """Numbers of endpoints matched so far and matched now, with the change of each number."""
 
     total_count: int = 0
     total_count_change: int = 0

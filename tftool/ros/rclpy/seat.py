@@ -188,7 +188,7 @@ class NodeSeat:
         self.world.remove(self._node)
 
     def late(self, full: str) -> list[tuple[Any, Endpoint | None]]:
-        """Return earlier messages that a new subscription with durability TRANSIENT_LOCAL receives.
+        """Return the stored messages that a new TRANSIENT_LOCAL subscription to a topic receives.
 
         Args:
             full: Full name of the topic.

@@ -538,7 +538,7 @@ class Buffer(BufferCore, BufferInterface):
         return self.promise(question(*asked, **named))
 
     def wait_for_transform_full_async(self, *asked: Any, **named: Any) -> Future:
-        """Return a future of the transform between two times, which completes when available."""
+        """Return a future that gets the transform between two times when it is available."""
         return self.promise(full_question(*asked, **named))
 
     def promise(self, asked: LookupRequest) -> Future:

@@ -160,7 +160,10 @@ def compose_matrix(
     translate: Any = None,
     perspective: Any = None,
 ) -> Any:
-    """Return the 4×4 matrix for a rotation (roll, pitch, yaw in radians) and a translation."""
+    """Return the 4×4 matrix for `angles` (roll, pitch, yaw in radians) and `translate`.
+
+    The other arguments are not supported and raise NotImplementedError.
+    """
     if scale is not None or shear is not None or perspective is not None:
         raise NotImplementedError(
             "tftool's compose_matrix supports only the arguments angles and translate"

@@ -84,7 +84,7 @@ class LookupHints:
                     self._say("early", self._early_text())
 
     def look_in_vain(self, target: str, source: str) -> None:
-        """Record a test (`can_transform`) that returned False; log the reason after a long time."""
+        """Record a failed `can_transform`; log the reason if the tests have failed for long."""
         self._waits = True
         self._hint_that_nothing_arrives()
         now = self._program.clock.now()
@@ -98,7 +98,7 @@ class LookupHints:
                 pass
 
     def summary(self) -> str:
-        """Return a hint about lookups at times newer than the data; "" if there were few."""
+        """Return a hint about lookups at times newer than the data; "" for few such lookups."""
         return self._early_text() if self._is_early else ""
 
     @property
@@ -116,7 +116,7 @@ class LookupHints:
         return f"{told}: use Time(), the latest, or a timeout"
 
     def _sent_once(self, target: str, source: str, now: Stamp) -> Iterator[FrameInfo]:
-        """Yield the edges above two frames that have only one sample, sent long ago."""
+        """Yield each edge above `target` and `source` whose only sample was sent long ago."""
         infos = {info.frame: info for info in self._frames.snapshot(now).frames}
         for frame in (target, source):
             seen: set[str] = set()

@@ -153,7 +153,7 @@ class BufferServer:
         return result
 
     async def _first(self, found: Future, limit: Duration) -> None:
-        """Wait until the future `found` is done, at most `limit`."""
+        """Wait until the future `found` is done, or until the time `limit` has passed."""
         if found.done() or limit.nanoseconds <= 0:
             return
         over = Future()
