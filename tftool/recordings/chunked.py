@@ -36,7 +36,7 @@ _MOST_NOTED: Final = 20  # sentences about damage: a hostile file may be damaged
 
 
 def reason_of(error: Exception) -> str:
-    """Describe an exception that was raised while reading a record: "a record is cut off"."""
+    """Describe an exception raised while reading a record: for example "a record is cut off"."""
     if isinstance(error, KeyError):
         return f"a record lacks its field {error.args[0].decode('ascii', 'replace')!r}"
     return "a record is cut off" if isinstance(error, struct.error) else str(error)
@@ -94,7 +94,7 @@ class Chunk:
         behind: Offset of the first record after the chunk and its message indexes.
         indexes: Offset of each channel's message index, in MCAP.
         counts: Number of messages of each channel, from the indexes; None if there are no indexes.
-        whole: Whether the chunk may be copied unchanged.
+        whole: Whether the chunk can be copied unchanged.
         walked: Messages found by reading all records of the chunk; None if there is an index.
     """
 
@@ -157,7 +157,7 @@ class ChunkedReader(File):
     """Base class of readers of files with chunks; see `ContainerReader`.
 
     Attributes:
-        damage: Different sentences about damage of the file, at most `_MOST_NOTED`.
+        damage: Sentences about damage of the file, without repetition, at most `_MOST_NOTED`.
         is_indexed: Whether the file has an index.
         schemas: Name, encoding and definition of each message type, by its number in an MCAP file.
     """
@@ -228,7 +228,7 @@ class ChunkedReader(File):
                 self.counts[self._numbers[channel]] += count
 
     def _scan(self, chunks: Iterator[Chunk]) -> None:
-        """Collect the channels and chunks of a file without an index, up to its end or damage.
+        """Collect channels and chunks of a file without an index, up to the end or first damage.
 
         The records of a chunk are read only if the chunk has no message indexes, or if these
         indexes contain an unregistered channel.
@@ -261,7 +261,7 @@ class ChunkedReader(File):
             )
 
     def origin(self, number: int) -> Any:
-        """Return a channel's description, an argument of the method `adopt` of writers."""
+        """Return a channel's description, to pass to the method `adopt` of a writer."""
         raise NotImplementedError
 
     # A chunk's messages

@@ -20,14 +20,14 @@ NOTHING_YET: Final = 2**64 - 1
 class ChunkedWriter:
     """Base class of writers of files with chunks; see `ContainerWriter`.
 
-    A chunk is written when the chunk is full, and by `flush`. Up to the last written chunk, the
-    file can be read even if the program crashes.
+    A chunk is written when the chunk is full, and by `flush`. If the program crashes, the
+    file can be read up to the last written chunk.
 
     Attributes:
         method: Compression of the chunks.
         position: Number of bytes in the file so far.
         counts: Number of messages of each channel.
-        first_free: Number of the first channel that is registered without a number.
+        first_free: Smallest number for a channel that is registered without a number.
     """
 
     first_free = 0
@@ -75,7 +75,7 @@ class ChunkedWriter:
 
         Args:
             extras: Attachments and metadata of another file.
-            schemas: Message types of another file whose numbers are used here, by number.
+            schemas: Name, encoding and definition of message types, by number in the other file.
         """
 
     def abandon(self) -> None:
@@ -105,7 +105,7 @@ class ChunkedWriter:
 
 
 def _runs(pieces: Sequence[bytes]) -> Iterator[bytes]:
-    """Join small pieces of bytes, which are then written at once; yield large pieces unchanged."""
+    """Yield the bytes to write: neighbouring small pieces joined, large pieces unchanged."""
     small: list[bytes] = []
     for piece in pieces:
         if len(piece) < _LARGE_PIECE:

@@ -155,8 +155,8 @@ class Growing:
             whether the messages came in order; number of rows at the beginning that `History` can
             use without a check; number of transforms whose leading slash was removed; and how often
             the columns were moved in memory.
-        first: Number of the first message with a transform of this edge, and a number that
-            increases with the position of the transform in that message.
+        first: Position of the edge's first transform in the recording: number of the message, and
+            a number that increases from transform to transform within the message.
     """
 
     __slots__ = ("child", "first", "messages", "parent", "records", "state", "static")

@@ -127,7 +127,7 @@ class MessageTable:
 
     @classmethod
     def of(cls, data: bytes, heads: Sequence[MessageHead]) -> "MessageTable":
-        """Build a table from message headers, and the bytes `data` that contain the payloads."""
+        """Build a table from message headers, whose offsets refer to the bytes `data`."""
         rows = zip(*heads, strict=True) if heads else [()] * 6
         channels, log_times, firsts, lasts, publish_times, sequences = rows
         starts = np.array(firsts, dtype=np.int64)
@@ -194,7 +194,7 @@ class Block(Protocol):
 
     @property
     def whole(self) -> bool:
-        """Whether the block may be copied unchanged."""
+        """Whether the block can be copied unchanged."""
 
     def sound(self) -> bool:
         """Whether the block's content is undamaged, as far as a checksum can show."""
@@ -226,8 +226,8 @@ class Piece:
     def copy_to(self, file: int, place: int, crc: int | None = None) -> int:
         """Copy the bytes to another file, and read the copy back to verify the bytes.
 
-        Copying 2 GB in this way took 1.1 times the time of `copy_file_range`, which is slow if the
-        two ranges have different offsets in their memory pages.
+        Copying 2 GB in this way took 1.1 times as long as with `copy_file_range`, which is slow
+        if source and destination begin at different offsets within a memory page.
 
         Args:
             file: Descriptor of the other file, open for writing and reading.
@@ -238,7 +238,7 @@ class Piece:
             CRC of the preceding and the copied bytes; 0 if `crc` is None.
 
         Raises:
-            InputError: If the file has become shorter, or the bytes read back differ.
+            InputError: If the file has become shorter, or the copy differs from the original.
             OSError: If the bytes cannot be written.
         """
         done = 0
@@ -283,7 +283,7 @@ class Piece:
 
 
 def _begin_alike(count: int) -> bool:
-    """Whether the first `count` bytes written and read back are equal."""
+    """Whether the first `count` bytes of the two buffers (written, read back) are equal."""
     # Compare whole buffers if possible, which makes no copy.
     return _one == _other if count == _STEP else _one[:count] == _other[:count]
 

@@ -126,7 +126,7 @@ class Recorded:
 
     @property
     def names(self) -> frozenset[str]:
-        """Return the names of all topics, without counting messages as `topics` does."""
+        """Return the names of all topics, faster than `topics`, which also counts messages."""
         return frozenset(stream.topic for stream in self._container.streams)
 
     @property
@@ -162,7 +162,7 @@ class Recorded:
     ) -> Transforms:
         """Return the transforms on some topics; None selects all topics with transforms.
 
-        Odometry and PoseStamped are read as transforms if their topics are named.
+        Odometry and PoseStamped messages are read as transforms if their topics are in `topics`.
         """
         chosen = [n for n, one in enumerate(self._container.streams) if self._gives(one, topics)]
         table = Table(self._container.expected(chosen))
@@ -254,7 +254,7 @@ class Recorded:
     def _batches(
         self, wanted: Collection[int], progress: Progress | None = None, head: int | None = None
     ) -> Iterator[Batch]:
-        """Yield batches of some streams; decompress messages that rosbag2 compressed one by one."""
+        """Yield batches of some streams, decompressed if rosbag2 compressed message by message."""
         for batch in self._container.batches(wanted, progress, head):
             start = int(batch.starts[0])
             if batch.buffer[start : start + 4].tobytes() == ZSTD_MAGIC:

@@ -120,7 +120,7 @@ class _Coming:
         self.future: Future[bytes | memoryview] = pool.submit(room.unpack, *piece)
 
     def unpack_here(self) -> None:
-        """Decompress the chunk in this thread, unless another thread has already started it."""
+        """Decompress the chunk in this thread, unless another thread has already begun."""
         # If the future cannot be cancelled, a thread is decompressing the chunk.
         if not self.future.cancel():
             return
@@ -203,7 +203,7 @@ class Ahead:
         return None
 
     def _start(self) -> None:
-        """Queue the next chunks for decompression, until all threads have work and a few wait."""
+        """Queue the next chunks, until there are `_WAITING` more queued chunks than threads."""
         while self._workers > 0 and len(self._coming) < self._workers + _WAITING:
             key = next(self._keys, None)
             if key is None:

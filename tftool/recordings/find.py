@@ -282,7 +282,7 @@ def find(word: str) -> Found:
 
 
 def _kind_with_options(word: str, path: Path) -> Kind:
-    """Return the kind of a file; only a pose file may have options of pose files.
+    """Return the kind of a file, after a check that only a pose file has options of pose files.
 
     Raises:
         UsageError: If a file of another kind has options of pose files.
@@ -455,7 +455,7 @@ def _recordings(
     """Return the recordings among some paths, their kinds, and the other paths.
 
     Raises:
-        PermissionError: If there is no recording, and some files may not be read.
+        PermissionError: If there is no recording, and permission to read some files is missing.
     """
     if len(entries) > MOST_FILES:
         raise InputError(

@@ -304,7 +304,7 @@ class Decoding:
                 self._table.refused[str(error)] += 1
 
     def flush(self) -> None:
-        """Do nothing, because `add` decodes every message at once."""
+        """Do nothing, because `add` decodes every message immediately."""
 
 
 def _compacted(batch: Batch) -> Batch:

@@ -245,8 +245,8 @@ class Recording:
         """Buffer with all transforms, in which lookups work at any recorded time.
 
         The last value of a static transform is valid at all times. Transforms that tf2 would
-        refuse, and moving transforms with stamp 0, are left out; see `oddities`. Frames of a robot
-        description without transforms are computed from recorded joint states; see `described`.
+        refuse, and moving transforms with stamp 0, are left out; see `oddities`. A robot
+        description and recorded joint states give the poses of further frames; see `described`.
         """
         oddities = self._oddities
         buffer = Buffer(NO_LIMIT, log=_silent, max_frames=MOST_FRAMES)

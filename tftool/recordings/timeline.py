@@ -116,8 +116,8 @@ class Timeline:
 
     Attributes:
         clock: Conversion of log times to the clock of the stamps.
-        start: Time of the first message, nanoseconds.
-        end: Time of the last message, nanoseconds.
+        start: Time of the first message, nanoseconds on the clock of the stamps.
+        end: Time of the last message, nanoseconds on the clock of the stamps.
     """
 
     def __init__(self, source: Recorded, transforms: Transforms) -> None:
@@ -164,7 +164,7 @@ class Timeline:
         return int(np.searchsorted(self.moments, moment, side="right" if after else "left"))
 
     def is_plain(self) -> npt.NDArray[np.bool_]:
-        """Return a mask of the messages that a buffer may receive in any order, shape (n,).
+        """Return a mask of the messages that a buffer can receive in any order, shape (n,).
 
         Every frame in such a message is moving, and has only one publisher and one parent.
         """
@@ -186,7 +186,7 @@ class Timeline:
 
         Returns:
             Arrival times and stamps, nanoseconds, shape (n,) each; empty for a static link. None if
-            a buffer may refuse or reorder some of the transforms, or if the child also has
+            a buffer could refuse or reorder some of the transforms, or if the child also has
             another parent or publisher.
         """
         edges = [edge for edge in self._transforms.edges if {edge.parent, edge.child} == link]
@@ -222,7 +222,7 @@ class Timeline:
         return numbers[self._transforms.senders[self._order[places]]], names
 
     def message(self, place: int) -> list[Due]:
-        """Return the transforms of message number `place`, separately by moving and static."""
+        """Return the moving and the static transforms of message number `place`, separately."""
         moment = int(self.moments[place])
         sender = self._transforms.senders[self._order[place]]
         publisher = self._transforms.publishers[int(sender)]

@@ -204,7 +204,7 @@ class Changer:
         self.topics: frozenset[str] | None = None
 
     def touches(self, channel: Channel) -> bool:
-        """Whether the edit may change or drop messages of a channel, apart from a cut in time."""
+        """Whether the edit, apart from --from and --to, can change or drop a channel's messages."""
         if carries_transforms(channel):
             if self.topics is not None:
                 return channel.topic in self.topics

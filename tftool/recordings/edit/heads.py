@@ -48,8 +48,8 @@ class StaticHeads:
     """Static transforms for the start of every output file, so that each file is complete.
 
     Attributes:
-        wanted: Whether to write static transforms at the start. False if the edit only changes
-            messages.
+        wanted: Whether to write static transforms at the start: if the edit cuts or splits the
+            recording, or has the options --statics-first or --statics-from.
     """
 
     def __init__(

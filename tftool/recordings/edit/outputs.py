@@ -42,7 +42,7 @@ class EditedFile:
         path: Path of the written file.
         container: "mcap", "db3" or "bag".
         counts: Number of written messages by channel.
-        digests: Checksum of each topic's messages, in order.
+        digests: Checksum of the written messages, by topic and type.
         copied: Size of each copied chunk, bytes, by its offset in the file.
         start: Log time of the first message.
         end: Log time of the last message.
@@ -182,7 +182,7 @@ class EditedFile:
         return found
 
     def _fits(self, source: int, tape: ContainerReader) -> bool:
-        """Whether chunks of an input may be copied, because the channel numbers are the same."""
+        """Whether chunks of an input can be copied, because the channel numbers are the same."""
         found = self._compatible.get(source)
         if found is None:
             found = tape.container == self.container and (
@@ -271,7 +271,7 @@ class EditedFile:
             self.writer.write(number, log_time, packed, publish_time, sequence)
 
     def can_copy(self, source: int, block: Block, tape: ContainerReader) -> bool:
-        """Whether a block of messages of an input may be copied unchanged."""
+        """Whether a block of messages of an input can be copied unchanged."""
         if not (block.whole and isinstance(block, Chunk) and self._fits(source, tape)):
             return False
         for number in block.counts or ():
@@ -298,7 +298,7 @@ class EditedFile:
             self.end = max(self.end, chunk.end)
 
     def closed_block(self, block: Block) -> None:
-        """Write the current chunk, which replaces `block`, with the compression of `block`."""
+        """Write the current chunk in place of an input's `block`, with the same compression."""
         if (
             self._chunks is not None
             and isinstance(block, Chunk)
@@ -355,7 +355,7 @@ def _defined(channel: Channel) -> Channel:
 
 
 def _latching(channel: Channel) -> Channel:
-    """Return a copy of a channel whose QoS lets late subscribers receive the last message."""
+    """Return a channel with a QoS that lets late subscribers receive the last message."""
     metadata = dict(channel.metadata)
     if channel.encoding == "ros1":
         if metadata.get("latching") == "1":

@@ -66,7 +66,7 @@ class PoseFormat:
 
     Attributes:
         name: Name for --pose-format.
-        fits: Function that checks whether a file's first bytes may be of this format.
+        fits: Function that checks whether a file's first bytes look like this format.
         read: Function that reads a file.
         parent: Default name of the parent.
         child: Default name of the child.

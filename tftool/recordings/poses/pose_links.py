@@ -33,7 +33,7 @@ class PoseLink:
     Attributes:
         parent: Name of the parent.
         child: Name of the child.
-        static: Whether the only pose is valid at all times.
+        static: Whether the link has a single pose, valid at all times.
         width: Number of values per pose: 7 (x y z, qx qy qz qw) or 12 (the upper rows of a matrix).
         stamps: Stamp of each pose, nanoseconds.
         numbers: Numbers of all poses, concatenated.

@@ -245,7 +245,7 @@ class Sqlite:
 
     Attributes:
         path: Path of the file.
-        unpacks: Whether `blocks` decompresses messages that rosbag2 compressed one by one.
+        unpacks: Whether `blocks` decompresses messages, if rosbag2 compressed message by message.
         topic_ids: Id of each stream's topic in the file.
     """
 
@@ -343,7 +343,7 @@ class Sqlite:
             self.streams.append(shown)
 
     def _columns(self, table: str) -> set[str]:
-        """Return the column names of a table; none for a view, whose rows may be endless."""
+        """Return the column names of a table; empty for a view, whose rows may be endless."""
         asked = "select count(*) from sqlite_master where lower(name) = ? and type = 'table'"
         if self._base.execute(asked, (table,)).fetchone() != (1,):
             return set()

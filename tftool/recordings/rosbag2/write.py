@@ -73,7 +73,7 @@ class SqliteWriter:
 
     @property
     def size(self) -> int:
-        """Number of bytes of messages so far."""
+        """Size of all messages so far, bytes."""
         return self._bytes
 
     def channel(self, channel: Channel, number: int | None = None) -> int:
