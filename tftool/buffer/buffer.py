@@ -95,10 +95,10 @@ class Buffer(Door):
     has no clock and never waits. Times are arguments in nanoseconds; in a lookup, 0 means the
     latest.
 
-    Threads: a buffer belongs to one thread, usually the thread of the event loop. Only this thread
-    may call most methods. Other threads may call `lookup_transforms`, `lookup_transforms_full` and
-    `samples` at any time: these copy the samples frame by frame, and compute on the copies. Each
-    copy is the state of its frame at some time during the call.
+    Threads: a buffer belongs to one thread, usually the thread of the event loop. Most methods
+    must be called in this thread only. Other threads can call `lookup_transforms`,
+    `lookup_transforms_full` and `samples` at any time: these methods copy the samples frame by
+    frame, and compute on the copies. Each copy is a frame's state at some time during the call.
     """
 
     def __init__(
@@ -295,8 +295,7 @@ class Buffer(Door):
 
         Returns:
             The accepted rows, and the reasons for the rejected rows; true if all rows were
-            accepted. The
-            first ten rejected rows are logged.
+            accepted. The first ten rejected rows are logged.
 
         Raises:
             TypeError: If the stamps are not whole numbers.
@@ -459,7 +458,7 @@ class Buffer(Door):
         source_time: Stamp,
         fixed_frame: str,
     ) -> TransformStamped:
-        """Return the pose of source at `source_time` in target at `target_time`, by a fixed frame.
+        """Return the pose of source at `source_time` in target at `target_time`, via a fixed frame.
 
         Both poses are looked up relative to `fixed_frame`, which is assumed not to move between the
         two times.
@@ -589,7 +588,7 @@ class Buffer(Door):
     ) -> solver.Velocity:
         """Return the velocity of `tracking_frame` in `observation_frame`, by tf2's formula.
 
-        `solver.full` describes the errors of tf2's formula; `lookup_twist` has no such errors.
+        `solver.full` describes the mistakes in tf2's formula; `lookup_twist` avoids them.
         """
         return solver.full(
             self,
@@ -631,7 +630,7 @@ class Buffer(Door):
     def lookup_twist(
         self, tracking_frame: str, observation_frame: str, time: Stamp, interval: Duration
     ) -> solver.Velocity:
-        """Return linear and angular velocity of `tracking_frame` in `observation_frame`.
+        """Return the velocity of `tracking_frame` in `observation_frame`, averaged over `interval`.
 
         Raises:
             TransformException: As `lookup_transform`.

@@ -494,7 +494,7 @@ class History(Fields):
         return origins
 
     def _insert_late(self, stamp: Stamp, origin: int, record: "array[int]") -> int:
-        """Insert the first sample of all, or a sample that is not newer than the newest sample."""
+        """Insert the link's first sample, or a sample that is not newer than the newest sample."""
         newest = self.newest_stamp
         parent = origin & PARENT_MASK
         if not self.count:
@@ -632,7 +632,7 @@ class History(Fields):
         self.mixed = self._newest_parent_start > 0
 
     def borrow(self, records: "Words", origin: int) -> None:
-        """Use another owner's array as the samples, with increasing stamps and one origin.
+        """Use samples in another owner's array; stamps increase, and all samples have one origin.
 
         The array is copied only at the first insertion or pruning. Until then `records` is a
         read-only view of the array.

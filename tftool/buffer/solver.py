@@ -49,7 +49,7 @@ class Path(NamedTuple):
         return latest
 
     def covers(self, time: Stamp) -> bool:
-        """Whether every link of the path has data at a time; 0 is the newest sample."""
+        """Whether every link of the path has data at a time; always true for time 0 (newest)."""
         for link in self.moving:
             # Most lookups request the newest stamp, so it is compared first.
             if time != link.newest_stamp and (
@@ -146,11 +146,11 @@ def full(
     time: Stamp,
     interval: Duration,
 ) -> Velocity:
-    """Return the velocity that tf2's `lookup_velocity_full` computes, including tf2's errors.
+    """Return the velocity that tf2's `lookup_velocity_full` computes, including tf2's mistakes.
 
     The result is a spatial twist if the reference does not rotate relative to the tracked frame.
     Otherwise tf2 applies the wrong rotation to the vectors, and moves the reference point with an
-    element-wise product instead of a cross product. `twist` has neither error.
+    element-wise product instead of a cross product. `twist` makes neither mistake.
 
     Raises:
         TransformException: If one of the lookups fails.

@@ -80,7 +80,7 @@ class Column:
         return int(self.records[-1, 0]) if len(self.records) else -(2**63)
 
     def changes(self) -> Stamps:
-        """Return the stamps at which the parent may change, including the first and the last."""
+        """Return the oldest and the newest stamp, and the stamps at which the parent changes."""
         ends = self.stamps[[0, -1]] if len(self.stamps) else self.stamps
         if self.parents is None:
             return ends

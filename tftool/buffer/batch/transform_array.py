@@ -206,8 +206,7 @@ class TransformArray:
         return TransformArray(self.frame_id, child, self.stamps, moved, turned, valid)
 
     def velocities(self) -> Velocities:
-        """Return the velocity of the child's origin and its angular velocity, expressed in
-        `frame_id`.
+        """Return the child's linear velocity (at its origin) and angular velocity in `frame_id`.
 
         Row i is the mean velocity from pose i - 1 to pose i + 1. The first row uses poses 0 and 1,
         the last row uses the last two poses. A row is NaN if one of its two poses is invalid, or if
