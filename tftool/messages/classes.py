@@ -143,7 +143,7 @@ def build(kind: Any, *values: Any, **named: Any) -> Any:
 
 
 def duplicate(message: Any) -> Any:
-    """Return a deep copy of a message, with float32 fields rounded as serialisation does."""
+    """Return a deep copy of a message, with float32 fields rounded as in serialisation."""
     kind = type(message)
     same = object.__new__(kind)
     for field in kind.fields__:

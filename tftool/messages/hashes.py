@@ -1,7 +1,7 @@
 """Hash of a message type's definition, as ROS 2 computes it (REP 2016, RIHS01).
 
 The hash is the SHA-256 of a fixed JSON form of the type's description, with the descriptions of
-nested types. The JSON has names and types of fields, but no defaults, constants and comments.
+nested types. The JSON has names and types of fields, but no defaults, constants or comments.
 """
 
 import hashlib

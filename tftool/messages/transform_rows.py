@@ -295,7 +295,7 @@ class TransformRows:
     def rewritten(self, rows: Sequence[TransformRow]) -> bytes:
         """Return the bytes of the message with other transforms.
 
-        If only stamps and numbers differ, all other bytes stay unchanged.
+        If the frame names stay the same, all bytes except stamps and numbers stay unchanged.
 
         Raises:
             MalformedMessage: If a stamp does not fit into ROS's seconds.

@@ -1,8 +1,8 @@
 """Message classes of the turtle nodes, and functions that create messages of these classes.
 
 tftool's nodes exchange the same messages as users' nodes and other processes. Each turtle sends
-poses 62 times a second, so messages are created without checks: the reader or
-encoder of a message checks it.
+poses 62 times a second, so messages are created without checks; the reader or
+encoder checks every message.
 """
 
 from typing import Any, Final

@@ -168,7 +168,7 @@ class RobotJoint:
 
     @property
     def limits(self) -> tuple[float, float] | None:
-        """Minimum and maximum position, radians or metres; None without limits, as of a wheel."""
+        """Minimum and maximum position, radians or metres; None without limits, as for a wheel."""
         if self.limit is None or self.type not in LIMITED_TYPES:
             return None
         return self.limit.lower, self.limit.upper

@@ -1,4 +1,4 @@
-"""Poses of a robot's links from joint positions, computed like robot_state_publisher does."""
+"""Poses of a robot's links from joint positions, computed as in robot_state_publisher."""
 
 import math
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence

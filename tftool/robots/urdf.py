@@ -276,7 +276,7 @@ class _Reader:
 
     @contextlib.contextmanager
     def _left_out(self) -> Iterator[None]:
-        """Convert mistakes found in a `with` block, which do not affect frames, to notes.
+        """Convert mistakes to notes in a `with` block that reads data without effect on frames.
 
         ROS's reader continues after mistakes in a link's appearance or mass, so robots run with
         such files.
