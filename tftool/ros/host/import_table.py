@@ -408,6 +408,6 @@ def imported_by(module: str) -> Sequence[str]:
 
 @cache
 def tagged() -> Mapping[str, ImportedName]:
-    """Return the class behind each tag of XML and YAML launch files, such as "node" or "$var"."""
+    """Return a mapping from each tag of XML and YAML launch files, such as "node", to a class."""
     names = (one for names in table().values() for one in names.values())
     return {tag: one for one in names for tag in one.tags}

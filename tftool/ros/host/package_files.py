@@ -291,7 +291,7 @@ class _Literals:
         return None
 
     def _files(self, pattern: Any, *, deep: bool) -> list[str]:
-        """Return the files inside the package's folder that match a glob pattern."""
+        """Return the files in the package's folder matching a glob pattern; `deep` permits `**`."""
         if not isinstance(pattern, str) or Path(pattern).is_absolute() or ".." in pattern:
             return []
         return sorted(glob.glob(pattern, root_dir=self._folder, recursive=deep))

@@ -87,7 +87,7 @@ class UnsetLaunchConfiguration(Action):
 
 
 class ResetLaunchConfigurations(Action):
-    """Action that removes all launch arguments, then sets the arguments that it was given."""
+    """Action that removes all launch arguments, then sets those in `launch_configurations`."""
 
     def __init__(
         self, launch_configurations: Mapping[Any, Any] | None = None, **kwargs: Any
@@ -96,7 +96,7 @@ class ResetLaunchConfigurations(Action):
         self.kept = dict(launch_configurations or {})
 
     def execute(self, context: LaunchContext) -> Any:
-        """Remove all launch arguments, then set the arguments that this action was given."""
+        """Remove all launch arguments, then set the arguments passed to `__init__`."""
         given = {perform(context, key): perform(context, one) for key, one in self.kept.items()}
         context.launch_configurations = given
 

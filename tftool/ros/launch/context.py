@@ -109,7 +109,7 @@ class LaunchContext:
         return self.launch
 
     def number_of(self, name: str) -> int:
-        """Return the number of a name in this launch, counted from 1 in order of first use."""
+        """Return a name's number in this launch; names are numbered from 1 by their first use."""
         return self._numbers.setdefault(name, len(self._numbers) + 1)
 
     def perform_substitution(self, substitution: Any) -> str:

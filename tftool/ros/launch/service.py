@@ -44,7 +44,7 @@ class LaunchService:
             self._owner.ask(lambda: launch.do([launch_description]))
 
     def run(self, *, shutdown_when_idle: bool = True) -> int:
-        """Execute the launch descriptions, and block until everything they started has ended.
+        """Execute the launch descriptions; block until everything that they started has ended.
 
         Returns:
             Exit status: 0, or 1 if the launch or one of its processes failed.

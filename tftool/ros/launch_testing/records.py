@@ -163,7 +163,7 @@ class IoHandler(_Record):
         """Wait until processes have printed a text; for the arguments see `waitFor`.
 
         Raises:
-            AssertionError: If the text has not been printed at the timeout.
+            AssertionError: If the text has not been printed before the timeout.
         """
         assert self.waitFor(*args, **kwargs), "Waiting for output timed out"
 

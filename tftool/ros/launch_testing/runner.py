@@ -50,7 +50,7 @@ class TestResult(unittest.TextTestResult):
 
 
 class _Loader(unittest.TestLoader):
-    """Loader of the test classes that run during a launch, or with `after_end`, after its end."""
+    """Loader of the test classes that run during a launch; with `after_end`, after the launch."""
 
     def __init__(self, *, after_end: bool) -> None:
         super().__init__()
@@ -325,7 +325,7 @@ class LaunchTestRunner:
 
 
 def parse_launch_arguments(launch_arguments: Sequence[str]) -> list[tuple[str, str]]:
-    """Parse launch arguments `name:=value` to pairs; the last value of a name counts.
+    """Parse launch arguments `name:=value` to pairs (name, value); the last value of a name counts.
 
     Raises:
         RuntimeError: If an argument is malformed.

@@ -52,7 +52,7 @@ class NodeEntity:
         return False
 
     def take(self) -> Work:
-        """Remove the entity's next work and return it; the executor calls the result."""
+        """Remove the entity's next work and return it as a function, which the executor calls."""
         raise NotImplementedError
 
     def withdraw(self) -> None:

@@ -174,7 +174,7 @@ class Executor:
     def spin_once_until_future_complete(
         self, future: Future, timeout_sec: float | None = None
     ) -> None:
-        """Wait for one callback and execute it; if the future is done first, only return."""
+        """Wait for one callback and execute it; return at once if the future is done first."""
         if not (future.done() or future.cancelled()):
             future.watch(lambda _: self._wake_from_anywhere())
             self._step(self._deadline(timeout_sec), future)

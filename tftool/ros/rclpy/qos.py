@@ -84,7 +84,7 @@ QoSLivelinessPolicy = LivelinessPolicy
 
 
 class QoSPolicyKind(IntEnum):
-    """Number of each policy in a QoS profile."""
+    """Policy of a QoS profile, with the numbers of ROS 2."""
 
     INVALID = 1
     DURABILITY = 2
