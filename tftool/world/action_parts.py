@@ -133,7 +133,7 @@ class ActionParts:
         return message(f"{self._type}_SendGoal_Response", accepted=accepted, stamp=_time(now))
 
     def _has_room(self) -> bool:
-        """Return whether one more goal may start; ended goals are dropped first to make room."""
+        """Return whether there is room for one more goal; ended goals are dropped first."""
         if self._make_way(len(self._undecided)) <= 0:
             return True
         self._warn(

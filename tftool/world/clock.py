@@ -1,8 +1,8 @@
 """Simulated and real clocks with one interface.
 
-No other module uses `time` or `asyncio.sleep`. Both clocks wake waiters exactly in the order of
-stamp, phase within the instant, rank within the phase, and time of the request. asyncio's own
-timers of one instant would be called in an unpredictable order.
+No other module uses `time` or `asyncio.sleep`. Both clocks wake waiters in the order of stamp, then
+phase within the instant, then rank within the phase, then request. asyncio's own timers of one
+instant would be called in an unpredictable order.
 
 On the simulated clock the event loop runs in virtual time too. When every task sleeps, time jumps
 to the earliest waiter's time. So asyncio's own timeouts are in simulated time, and ten simulated

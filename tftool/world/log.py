@@ -28,7 +28,7 @@ class LogRecord:
         node: Name of the node that logged the message.
         text: Text of the message. It may contain names from other processes, so escape the text for
             display.
-        program: Name of the node's program; two programs may have nodes of the same name.
+        program: Name of the node's program; two programs can have nodes of the same name.
     """
 
     stamp: Stamp

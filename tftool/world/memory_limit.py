@@ -1,4 +1,4 @@
-"""Memory limit for the transforms of a live world; above it, the oldest samples are dropped.
+"""Limit on the memory for a live world's transforms, kept by dropping the oldest samples.
 
 A buffer, like tf2's, drops samples only by age. So a publisher with a very high rate, or with
 stamps a nanosecond apart, could fill the memory of every subscriber. Buffers of recordings have no

@@ -45,7 +45,7 @@ class Node(Resident):
         Raises:
             TftoolError: If the world has a node of that name already.
             TypeError: If the class has no coroutine `run`. An object of `Node` itself needs no
-                `run`, because other code may publish and subscribe under the node's name.
+                `run`, because other code can publish and subscribe under the node's name.
         """
         kind = type(self)
         if kind is not Node and not self._is_passive:
@@ -167,7 +167,7 @@ class Node(Resident):
     def serve_action(
         self, name: str, accept: Callable[[Any], None], kind: Any = None
     ) -> Callable[[], None]:
-        """Accept an action's goals until this node ends; `kind` is as in `World.serve`."""
+        """Accept an action's goals until this node ends; for `kind`, see `World.serve`."""
         return self._until_end(self.world.serve_action(name, accept, kind, node=self.name))
 
     async def call(self, service: str, request: Any) -> Any:

@@ -41,7 +41,7 @@ _LEAVE_SCREEN = (
 class Overdue(BaseException):
     """Exception raised inside a node that blocks the loop beyond the end of the run.
 
-    The base class is `BaseException`, because a node may catch every `Exception`.
+    The base class is `BaseException`, because a node could catch every `Exception`.
     """
 
 

@@ -35,7 +35,7 @@ class Resident:
         """Do the resident's work; the resident ends when this coroutine returns."""
 
     def close(self) -> None:
-        """Close everything that the resident serves or subscribes to; called when it ends."""
+        """Close the resident's services and subscriptions; called when the resident ends."""
 
 
 async def live(world: "World", *, until: Stamp | None = None) -> None:

@@ -34,7 +34,7 @@ class Topic(Generic[T]):
             without a connection.
         far_subscribers: Number of subscribers in other processes.
         is_far: Whether only other processes use the topic.
-        is_removed: Whether the world has removed the topic. A newer topic may have the same name.
+        is_removed: Whether the world has removed the topic. A newer topic can have the same name.
     """
 
     __slots__ = (

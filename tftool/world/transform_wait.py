@@ -55,7 +55,7 @@ async def wait_for_transform_full(
     fixed_frame: str,
     timeout: Duration | None = None,
 ) -> TransformStamped:
-    """Return the transform between frames at two times through a fixed frame, when available.
+    """Wait for the transform between frames at two times through a fixed frame, and return it.
 
     Raises the errors of `wait_for_transform`. If all three frames have the same name, and no such
     frame exists, LookupException is raised at once.

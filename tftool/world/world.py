@@ -485,7 +485,7 @@ class World:
         return accepted
 
     def static_transforms(self, authority: str | None = None) -> tuple[TransformStamped, ...]:
-        """Return the static transforms of one sender of this process, or of all senders."""
+        """Return the static transforms of one sender in this process, or of all processes."""
         if authority is not None:
             return tuple(self._statics.get(authority, {}).values())
         held = [self._far_statics, *self._statics.values()]
@@ -512,7 +512,7 @@ class World:
         fixed_frame: str,
         timeout: Duration | None = None,
     ) -> TransformStamped:
-        """Return a transform between two times, as soon as available; see `transform_wait`."""
+        """Wait for a transform between frames at two times, and return it; see `transform_wait`."""
         return await waiting.wait_for_transform_full(
             self.buffer,
             self.clock,

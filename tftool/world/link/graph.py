@@ -156,7 +156,7 @@ class Graph:
         return next((one for one in self._processes.values() if one.session == session), None)
 
     def entities(self, *kinds: str, name: str | None = None) -> list[GraphEntity]:
-        """Return the entities of the given kinds (default: all), and only with `name` if given."""
+        """Return the entities of the given kinds (default: all) and with the given name, if any."""
         found = self._entities if name is None else self._by_name.get(name, {})
         return [one for one in found.values() if not kinds or one.kind in kinds]
 

@@ -20,7 +20,7 @@ _SLICE: Final = 200
 
 
 class Inbox:
-    """Queue of calls from any thread, which the event loop makes in order.
+    """Queue to which any thread adds calls; the event loop makes the calls in order.
 
     Attributes:
         lost: Number of messages that were dropped because the queue was full.
@@ -132,7 +132,7 @@ _FAREWELL = 2.0
 
 
 class Outbox:
-    """Queue of calls that send messages, made in order in one thread.
+    """Queue of calls that send messages; one thread makes the calls in order.
 
     Attributes:
         dropped: Number of calls that were dropped because the queue was full and no message could

@@ -54,7 +54,7 @@ class WireRequest(Protocol):
         """Request in CDR (ROS 2's serialised form)."""
 
     def answer(self, payload: bytes, stamp: Stamp) -> None:
-        """Send the response; call this only once."""
+        """Send the response; `answer` must be called only once."""
 
     def refuse(self, reason: str) -> None:
         """Send the client an error with the reason, instead of a response."""

@@ -33,7 +33,7 @@ class TopicBridge:
         """Create the bridge of a topic whose values are ROS messages.
 
         Raises:
-            MalformedMessage: If ROS 2 releases encode these messages differently.
+            MalformedMessage: If the encoding of these messages depends on the ROS 2 release.
         """
         self._link = link
         self._topic = topic

@@ -144,7 +144,7 @@ class Player(Node):
                 self._feed_until(moment)
 
     def seek(self, moment: Stamp) -> None:
-        """Jump to a time; send the frames at that time, and the transforms of the second before."""
+        """Jump to a time of the recording; send the transforms that lookups at this time need."""
         before = self.position
         self._anchor = min(max(moment, self.start), self.end)
         self._since = self._pace.now()

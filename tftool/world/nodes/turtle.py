@@ -311,7 +311,7 @@ class TickQueue:
         return answer
 
     def deliver(self, tick: Stamp) -> None:
-        """Run the work that was queued before now; every function gets the tick's time."""
+        """Call the functions that were queued before now, each with the tick's time."""
         # The clock's time, not the tick's: a late tick processes all commands until now.
         moment = self._clock.now()
         while self._waiting and self._waiting[0][0] < moment:

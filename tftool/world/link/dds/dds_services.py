@@ -1,8 +1,8 @@
 """Services over DDS as in ROS 2 with Cyclone: a topic for requests and one for responses.
 
 Each message begins with the request's number. Fast DDS sends that number beside the message, where
-the library cannot read it. So requests of nodes that use Fast DDS get no response, and a warning
-names Fast DDS.
+Cyclone's library cannot read it. So requests of nodes that use Fast DDS get no response, and a
+warning names Fast DDS.
 """
 
 import asyncio
@@ -119,7 +119,7 @@ class CycloneRequest:
         self._reply = reply
 
     def answer(self, payload: bytes, stamp: Stamp) -> None:
-        """Send the response; call this only once."""
+        """Send the response; `answer` must be called only once."""
         self._reply(payload[:_HEAD] + self._number + payload[_HEAD:])
 
     def refuse(self, reason: str) -> None:

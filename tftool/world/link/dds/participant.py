@@ -151,7 +151,7 @@ class DdsSample:
 
 
 class Domains:
-    """Counts of the uses of each DDS domain in this process; all uses share one configuration."""
+    """Use counts of DDS domains in this process; all uses of a domain share its configuration."""
 
     def __init__(self) -> None:
         self._held: dict[int, tuple[Any, str, int]] = {}

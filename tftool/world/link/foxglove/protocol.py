@@ -286,7 +286,7 @@ class RosTopic(NamedTuple):
 def ros_topic(channel: FoxgloveChannel) -> RosTopic:
     """Return the ROS topic and type of a channel.
 
-    Foxglove's own transform type may be on any topic. A channel of this type counts as a publisher
+    Foxglove's own transform type can be on any topic. A channel of this type counts as a publisher
     of `tf_static` if the topic's name ends in `tf_static`, else of `tf`.
     """
     name = channel.topic.strip("/")

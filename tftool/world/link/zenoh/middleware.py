@@ -95,7 +95,7 @@ class ZenohMiddleware(Middleware):
             raise
 
     def _reach_out(self, others: dict[str, int]) -> None:
-        """Wait until local processes, and processes at the option `connect`, are connected."""
+        """Wait for connections to local processes, and to the endpoints in the option `connect`."""
 
         # zenoh's own wait is short, and processes of a busy machine respond slowly: if they were
         # ignored, a second world would be hosted. A stopped process never responds.
@@ -332,7 +332,7 @@ class ZenohRequest:
         return self._query.payload
 
     def answer(self, payload: bytes, stamp: Stamp) -> None:
-        """Send the response; call this only once."""
+        """Send the response; `answer` must be called only once."""
         # The reply repeats the request's number and client, so that the client can assign it.
         beside = Attachment(self._beside.sequence, stamp, self._beside.gid)
         self._query.answer(payload, beside.encode())

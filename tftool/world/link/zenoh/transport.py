@@ -34,7 +34,7 @@ class Query:
         self._query = query
 
     def answer(self, payload: bytes, attachment: bytes) -> None:
-        """Send the response; call this only once."""
+        """Send the response; `answer` must be called only once."""
         # The client may have left.
         with contextlib.suppress(Exception):
             self._query.reply(self._query.key_expr, payload, attachment=attachment)
