@@ -42,7 +42,7 @@ def _meant(error: TransformException) -> str:
 
 
 class AnswerCheck(ABC):
-    """Base of checks of an answer; the check as a string describes the expected answer."""
+    """Base of checks of an answer; `str(check)` describes the expected answer."""
 
     @abstractmethod
     def judge(self, answer: Any) -> Judged:

@@ -34,7 +34,7 @@ class DoctorRules:
     limits: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
 
     def settings(self, given: "Settings") -> "Settings":
-        """Return a command's settings for the doctor, completed by these rules' thresholds."""
+        """Return a command's settings (`given`), with these rules' thresholds as defaults."""
         from tftool.doctor.model import Settings
 
         limits = {name: dict(of) for name, of in self.limits.items()}
