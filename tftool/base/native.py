@@ -45,8 +45,8 @@ def large_pages(size: int, end: int) -> "mmap.mmap | None":
     Args:
         size: Minimum number of bytes, rounded up to a whole page. Bytes that are never written
             occupy no memory.
-        end: Offset in bytes up to which large pages are requested; the memory above has usual
-            pages.
+        end: Offset in bytes up to which large pages are requested; later pages have the usual
+            size.
     """
     if _HUGE is None:
         return None

@@ -128,7 +128,7 @@ def short_duration(duration: Duration) -> str:
 
 
 def three_digits(value: float) -> str:
-    """Format a number with three significant digits, or as a whole number from 1000 on."""
+    """Format a number with three significant digits; round numbers from 1000 on to integers."""
     return f"{value:.3g}" if abs(value) < 999.5 else f"{value:.0f}"
 
 

@@ -29,7 +29,7 @@ NOISE = 1e-13
 
 
 def quaternion_from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
-    """Return the quaternion of rotations about fixed x, then y, then z, radians."""
+    """Return the quaternion of turns in radians about the fixed axes x, then y, then z."""
     return Quaternion(*quaternions.from_rpy(roll, pitch, yaw))
 
 
@@ -132,7 +132,7 @@ def nearest_rotation(matrix: Sequence[Sequence[float]]) -> tuple[Matrix3, float]
 
     Returns:
         The rotation, and the largest difference between an entry of the rotation and the same entry
-        of the matrix. The difference is infinite if the matrix is singular or mirrors.
+        of the matrix. The difference is infinite if the matrix is singular or a reflection.
 
     Source:
         Higham, "Computing the polar decomposition", SIAM J. Sci. Stat. Comput. 1986; computed here

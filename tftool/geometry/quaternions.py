@@ -146,7 +146,7 @@ def matrix(quaternion: Quad) -> Matrix3:
 
 
 def from_rpy(roll: float, pitch: float, yaw: float) -> Quad:
-    """Return the quaternion of rotations about fixed x, then y, then z, radians."""
+    """Return the quaternion of turns in radians about the fixed axes x, then y, then z."""
     sr, cr = math.sin(0.5 * roll), math.cos(0.5 * roll)
     sp, cp = math.sin(0.5 * pitch), math.cos(0.5 * pitch)
     sy, cy = math.sin(0.5 * yaw), math.cos(0.5 * yaw)

@@ -103,7 +103,7 @@ class Quaternion(NamedTuple):
 
     @classmethod
     def from_rpy(cls, roll: float, pitch: float, yaw: float) -> "Quaternion":
-        """Return the quaternion of rotations about fixed x, then y, then z, radians."""
+        """Return the quaternion of turns in radians about the fixed axes x, then y, then z."""
         return cls(*quaternions.from_rpy(roll, pitch, yaw))
 
     def rpy(self) -> quaternions.Triple:
