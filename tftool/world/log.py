@@ -26,7 +26,7 @@ class LogRecord:
         stamp: Time of the message on the world's clock, nanoseconds.
         level: Severity.
         node: Name of the node that logged the message.
-        text: Text of the message. It may contain names from other processes, so escape the text for
+        text: Text of the message. It can contain names from other processes, so escape the text for
             display.
         program: Name of the node's program; two programs can have nodes of the same name.
     """

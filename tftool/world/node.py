@@ -80,7 +80,7 @@ class Node(Resident):
     def start_soon(self, work: Coroutine[Any, Any, T]) -> "asyncio.Task[T | None]":
         """Run a coroutine concurrently with `run`, as part of this node.
 
-        The coroutine may outlast `run`, and is cancelled when the node is removed or the world
+        The coroutine can outlast `run`, and is cancelled when the node is removed or the world
         ends. An exception of the coroutine makes this node fail.
 
         Returns:

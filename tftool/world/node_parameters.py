@@ -35,7 +35,7 @@ def value_of(message: Any) -> Any:
     """Return the Python value of an rcl_interfaces ParameterValue; None if not set.
 
     Raises:
-        ValueError: If ROS 2 has no such type of value.
+        ValueError: If ROS 2 defines no parameter type with the number `message.type`.
     """
     if message.type >= len(FIELDS):
         raise ValueError(f"{message.type} is not a known type of a parameter")

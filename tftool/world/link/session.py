@@ -364,7 +364,7 @@ class Link(LinkContext):
     def _count_departure(self, session: str) -> None:
         """Count a process as departed when its announcement and its publishers of tf are gone.
 
-        Both conditions are needed: a node may leave a process that stays, and programs other than
+        Both conditions are needed: a node can leave a process that stays, and programs other than
         tftool announce no process.
         """
         senders = self.graph.entities(PUBLISHER, name="tf")

@@ -68,7 +68,7 @@ def data_key(domain: int, name: str, ros_type: str, its_hash: str = "") -> str:
         domain: Number of the ROS domain.
         name: Name of the topic or service.
         ros_type: Type of the topic or service.
-        its_hash: Hash of the type in the other process, which may have another ROS release; "" to
+        its_hash: Hash of the type in the other process, which can have another ROS release; "" to
             use the hash of this process.
     """
     return f"{domain}/{name.strip('/')}/{dds_name(ros_type)}/{its_hash or type_hash(ros_type)}"

@@ -2,7 +2,7 @@
 
 Every member of a session has a socket in the folder, named after the member. A later process
 connects to all members that respond, and removes the sockets of processes that have ended. So there
-is no daemon, and every process may end at any time. A process holds a lock while it joins, so that
+is no daemon, and every process can end at any time. A process holds a lock while it joins, so that
 two processes never both start as the first.
 
 Other users of the machine have no access, because sockets are in folders of mode 700. If a path is
