@@ -184,7 +184,7 @@ def played(
         found: File of the scenario.
         until: Last time: a duration in nanoseconds, infinity for the whole scenario, or a time in
             the scenario; None for `USUAL`.
-        margin: Nanoseconds to continue after the last time, because transforms may arrive late.
+        margin: Nanoseconds to continue after the last time, because transforms can arrive late.
         cache_time: Cache time of the buffers, nanoseconds, in place of the scenario's cache time;
             None for no limit.
         watch: Function called with the world before the run.

@@ -1,6 +1,6 @@
 """Questions of a scenario's expectations, such as a distance, and the code that answers them.
 
-Each class is one kind of question. Its fields name the readers of their values; the method `answer`
+Each class is one kind of question. Each field names the reader of its value; the method `answer`
 computes the answer. The decorator `declare` registers the class in `SUBJECTS`, with its key in a
 scenario and the form of the expected answer.
 """
