@@ -36,7 +36,7 @@ def climbed(frame: str, parent: Callable[[str], EdgeT | None]) -> list[EdgeT]:
 def up_to_join(
     frame: str, other: str, above: Callable[[str], list[EdgeT]]
 ) -> tuple[list[EdgeT], list[EdgeT]] | None:
-    """Return (edges above `frame`, edges above `other`) up to their common ancestor, if any.
+    """Return (edges above `frame`, edges above `other`) up to the common ancestor, else None.
 
     Args:
         frame: The first frame.

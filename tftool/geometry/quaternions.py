@@ -88,7 +88,7 @@ def canonical(quaternion: Quad) -> Quad:
     """Return a unit quaternion with the sign that tf2 would compute.
 
     tf2 computes quaternions from rotation matrices. So w is positive for turns below 120°. For
-    larger turns the largest imaginary part is positive, and w may be negative.
+    larger turns the largest imaginary part is positive, and w can be negative.
     """
     x, y, z, w = quaternion
     return (-x, -y, -z, -w) if leading(x, y, z, w) < 0.0 else quaternion

@@ -132,7 +132,7 @@ class Transform(_Parts):
     """A rotation followed by a translation, as an immutable, hashable value.
 
     The quaternion is stored unchanged. Calculations use the normalised quaternion, if the
-    quaternion is finite and not zero. A zero quaternion, which a message may have, makes results
+    quaternion is finite and not zero. A zero quaternion, which a message can have, makes results
     NaN.
 
     Attributes:
