@@ -50,7 +50,7 @@ class Check:
         causes: Causes known from reports of users, the most frequent first.
         links: Discussions of the fault, and standards.
         limits: Thresholds by name: seconds, metres, radians, fractions or counts.
-        needs: Keys of `NEEDS` without which the check cannot run.
+        needs: Keys of `NEEDS`: data without which the check cannot run.
         why: Reason for the rule and its thresholds; empty if obvious.
         because_of: Checks whose findings may explain a finding of this check, as pairs (common
             subject, ids of the checks separated by blanks). The first pair that fits is used. Both

@@ -144,7 +144,7 @@ def _is_placed_by_stamp(model: Model, stream: "Track | Heard") -> bool:
 
 
 def _others(model: Model, odd: "list[Track | Heard]", family: int) -> str:
-    """Return "all others" if no stream outside `odd` uses the odd clock, else "other streams"."""
+    """Return "all others" if only streams in `odd` use the clock `family`, else "other streams"."""
     streams: list[Track | Heard] = [*model.tracks, *model.heard]
     also = any(one.families[family] for one in streams if one not in odd)
     return "other streams" if also else "all others"
@@ -418,7 +418,7 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _is_shared(model: Model, aheads: Sequence[Duration]) -> bool:
-    """Whether all streams, on several topics, are ahead of reception by nearly the same time.
+    """Whether all streams are ahead of reception by nearly the same time, on two or more topics.
 
     Args:
         model: Model of the evidence.

@@ -29,10 +29,10 @@ _RADIAN = 0.5
 
 
 def severity_of(model: Model, track: Track, hit: Hit, limits: Limits) -> Severity | None:
-    """Return WARNING or NOTE for an uncertain or harmless conflict; None for an error.
+    """Return NOTE for a possible conflict, WARNING for a likely or harmless one, None for an error.
 
-    A harmless conflict has a small difference, or concerns a minor part of the robot, such as a
-    wheel.
+    A harmless conflict is between two nearly equal poses, or concerns a minor part of the robot,
+    such as a wheel.
     """
     if hit.confidence is not Confidence.CERTAIN:
         return Severity.NOTE if hit.confidence is Confidence.POSSIBLE else Severity.WARNING

@@ -223,7 +223,7 @@ class Waits:
         return served
 
     def serves(self, percent: float) -> int:
-        """Return the timeout that suffices for `percent` % of `served`, nanoseconds."""
+        """Return the timeout, nanoseconds, with which `percent` % of `served` lookups succeed."""
         return int(np.percentile(self.served, percent, method="higher"))
 
 
@@ -334,7 +334,7 @@ def sensor_outruns_tf(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _waiting(model: Model, limits: Limits) -> Iterator[tuple[Heard, Waits]]:
-    """Yield the topics whose messages programs transform one by one, with the waiting times."""
+    """Yield each topic of which every message needs a lookup, with the messages' waiting times."""
     fixed = model.sensor_frame
     around = {track.parent for track in model.above(fixed)}
     for heard in model.heard:
@@ -352,7 +352,7 @@ def _waiting(model: Model, limits: Limits) -> Iterator[tuple[Heard, Waits]]:
 
 
 def _is_result(model: Model, heard: Heard, link: Track) -> bool:
-    """Whether one node sends the edge `link` and, as its result, the messages of a topic.
+    """Whether a node that sends the edge `link` also sends a topic's messages, as a result.
 
     Such a result, for example the pose of a localiser, needs no lookup.
     """

@@ -87,7 +87,7 @@ class Evidence:
 
     @property
     def is_generated(self) -> bool:
-        """Whether a program invented the log times: ten or more topics have one exact period."""
+        """Whether log times are artificial: ten or more topics, all of the same exact period."""
         periods = {
             step
             for headers in self.headers.values()

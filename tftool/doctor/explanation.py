@@ -1,8 +1,8 @@
 """Explanation of one lookup: the failing edge, the missing time, and the remedies.
 
-An assumed listener makes the lookup, in a real buffer with the samples that had arrived by then,
-pruned as in tf2. Reasons and remedies are derived from the edges of the path, because tf2's error
-text may name an edge that the lookup does not need.
+An assumed listener makes the lookup in a real buffer, with the samples that arrived before the
+lookup, and pruned as in tf2. Reasons and remedies are derived from the path's edges, because tf2's
+error text may name an edge that the lookup does not need.
 """
 
 from collections.abc import Sequence

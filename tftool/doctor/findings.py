@@ -159,7 +159,7 @@ class Skipped:
 class Hit:
     """One observation of a check; `judge` turns similar hits into one finding with texts.
 
-    The attributes have the meanings of `Finding`. `facts` also fills the placeholders in the texts
+    The attributes mean the same as in `Finding`. `facts` also fills the placeholders in the texts
     of the check.
     """
 

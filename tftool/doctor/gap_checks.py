@@ -275,10 +275,9 @@ def gap(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _turned_or_lossy(model: Model, track: Track, limits: Limits) -> Hit | None:
-    """Return a hit about short gaps of an edge, or None.
+    """Return a hit about a short gap of an edge in which the robot turned far, or lost samples.
 
-    The hit is about a gap across which the robot turned far, or about single samples that an exact
-    period lacks.
+    Lost samples are missing from an otherwise exact period. Return None if nothing is found.
     """
     if len(track.by_stamp) < limits["samples"] or not track.period or track.wild.any():
         return None
@@ -327,7 +326,7 @@ def _turned_or_lossy(model: Model, track: Track, limits: Limits) -> Hit | None:
 
 
 def _loss(track: Track, steps: Stamps, limits: Limits) -> str:
-    """Return a clause about single samples that are missing from an exact period.
+    """Return a clause about samples that are missing from an edge with an exact period.
 
     The clause is empty if few samples are missing, or if the period is not exact.
 
@@ -410,9 +409,9 @@ def _is_going_on(stream: Track | Heard, begin: int, end: int) -> bool:
 
 
 def _is_silent(stream: Track | Heard, begin: int, end: int) -> bool:
-    """Whether a stream has no samples in the middle of a gap, where samples are usual.
+    """Whether a stream has no samples in the middle of another stream's gap.
 
-    The stamps `begin` and `end` bound the gap, which another stream has.
+    Streams with a low rate do not count. The stamps `begin` and `end` bound the gap.
     """
     margin = (end - begin) // 5
     low, high = np.searchsorted(np.sort(stream.stamps), (begin + margin, end - margin))
@@ -504,9 +503,9 @@ def single_sample(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _is_sibling(track: Track, other: Track) -> bool:
-    """Whether `other` is an object of the same kind as `track` that was detected often.
+    """Whether the child of `other` is an often detected object of the kind of `track`'s child.
 
-    The edges then have one parent, and children such as marker_7 and marker_12.
+    Such edges have one parent, and children such as marker_7 and marker_12.
     """
     alike = (other.parent, family(other.child)) == (track.parent, family(track.child))
     return alike and len(other.stamps) >= _OFTEN

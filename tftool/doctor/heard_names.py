@@ -96,10 +96,10 @@ _FIND_IT = Fix("find the node that should publish the frame, or another name for
 
 
 def _raw_input(model: Model, name: str) -> tuple[list[Heard], str]:
-    """Return the raw messages in a frame that is probably the input of a localiser.
+    """Return the topics of raw messages in a frame, if they are probably the input of a localiser.
 
-    A localiser would place such a frame: tf has no robot, and one node sends all messages in the
-    frame, with and without a position.
+    The localiser would publish the frame. The conditions are that tf has no robot, and that one
+    node sends all messages in the frame, with and without a position.
 
     Returns:
         The topics without a position and the name of the node; empty for other frames.
@@ -271,7 +271,7 @@ def _age_first(model: Model, heard: Heard) -> Fix:
 
 
 def _outside(model: Model, heard: Heard, known: str) -> str:
-    """Return the time from a topic's stamps to the frame's samples, as a clause of a sentence.
+    """Return a clause with the time between a topic's stamps and the samples of the frame `known`.
 
     The clause is empty if some of the stamps are between the first and the last sample.
     """

@@ -81,7 +81,7 @@ def _is_seen(model: Model) -> bool:
 
 
 def _counts(model: Model) -> list[int]:
-    """Return the number of moving transforms before, between and after the backward jumps."""
+    """Return the number of moving transforms in each lap: before, between and after the jumps."""
     logs = np.concatenate([np.zeros(0, np.int64), *(track.all_logs for track in model.dynamic)])
     parts = np.searchsorted([lap.log for lap in model.laps], logs, side="right")
     counts: list[int] = np.bincount(parts, minlength=len(model.laps) + 1).tolist()
@@ -89,7 +89,7 @@ def _counts(model: Model) -> list[int]:
 
 
 def _mixed(model: Model, count: int) -> str:
-    """Return a clause about a buffer that receives data from the past, and does not notice.
+    """Return a clause about a buffer that is not cleared when data from the past arrives.
 
     The buffer drops transforms older than its cache, and mixes the other old poses with newer ones.
 

@@ -126,7 +126,7 @@ def _steps(track: Track) -> list[LocalisationStep]:
 def _unexplained(changes: Floats, gaps: Floats) -> tuple[Floats, float]:
     """Compute the jump in each change of a pose, and the noise of the motion.
 
-    A change between the velocities before and after the change is acceleration, and not a jump.
+    A change whose velocity is between the velocities before and after is acceleration, not a jump.
     Velocities are computed per second and per sample, because stamps may be less regular than the
     motion. The smaller jump of these two computations is used.
 

@@ -81,7 +81,7 @@ class TraceResult:
         links: State of each edge in the buffer.
         refusing: Index of the failing edge; None if no edge fails.
         begin: First log time at which the lookup succeeds; None for never.
-        end: Last log time at which the lookup succeeds; None for never, or until the end.
+        end: Last log time at which the lookup succeeds; None if it never succeeds, or always later.
         available: Whether the lookup succeeds.
     """
 
@@ -208,7 +208,7 @@ def no_join(known: TraceResult) -> Reason:
 
 
 def works(known: TraceResult) -> Reason:
-    """Return the reason for a successful lookup, with causes of failures in a user's node."""
+    """Return the reason for a successful lookup, with faults that may stop it in a user's node."""
     model, question = known.trace.model, known.trace.question
     for frame in (question.source, question.target):
         tree = model.tree_of.get(frame)

@@ -142,7 +142,7 @@ def _between(path: TransformArray, begin: int, end: int) -> TransformArray:
 
 
 def _pairs(model: "Model") -> Iterator[tuple[TransformArray, TransformArray, Transform]]:
-    """Yield the motions of two frames on one rigid body, and the published mount between them.
+    """Yield (motion, motion, published mount) for each pair of frames on one rigid body.
 
     The two motions were recorded independently of each other.
     """

@@ -157,7 +157,7 @@ def _described(model: Model, root: str, others: frozenset[str]) -> Join | None:
 
 
 def _in_odometry(model: Model, tree: Tree, other: Tree) -> Join | None:
-    """Propose an edge between two trees from Odometry messages, or return None."""
+    """Propose the edge from `tree` to `other` that Odometry messages contain, or return None."""
     odometry = model.evidence.odometry
     if odometry is None:
         return None

@@ -68,7 +68,7 @@ class Shift:
 
     Attributes:
         by: Time from stamp to reception of most messages, nanoseconds; negative if the stamps are
-            later.
+            later than reception.
         spread: Median variation (10 % to 90 % quantile) of this time in a stream, nanoseconds.
         streams: Number of streams (edges and topics) with this shift.
         of: Number of all compared streams.
@@ -99,12 +99,12 @@ class Lap:
 
 @dataclass(frozen=True, slots=True)
 class Tree:
-    """Tree of the frames that are connected by the edges to their newest parents.
+    """Tree of frames, each connected to its newest parent.
 
     Attributes:
         root: The frame without a parent; in a loop, one of the frames of the loop.
         frames: All frames, including the root.
-        is_circle: Whether the frames hang from a loop, which has no root.
+        is_circle: Whether the tree has a loop of frames instead of a frame without a parent.
     """
 
     root: str

@@ -117,7 +117,7 @@ def _outside(shift: Floats, bounds: Floats, widths: Floats, limits: Limits) -> l
         shift: Difference of the mounts, metres and degrees, shape (6,); NaN never exceeds a bound.
         bounds: Largest normal difference, shape (6,).
         widths: Half-widths of the difference's 95 % interval for the text, shape (6,).
-        limits: Thresholds "metres" and "degrees", the minimum of all bounds.
+        limits: Thresholds "metres" and "degrees", which replace smaller bounds.
     """
     said = []
     for place, name in enumerate((*AXES, *ANGLES)):

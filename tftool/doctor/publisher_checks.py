@@ -186,9 +186,9 @@ def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _folded(told_of: dict[tuple[str, str], Hit]) -> dict[tuple[str, str], Hit]:
-    """Merge each conflict that only follows from another conflict into that conflict.
+    """Merge each conflict that another conflict causes into the conflict that causes it.
 
-    If a node computes a child from a transform with two publishers, the child alternates too.
+    If a node computes a transform from a transform with two publishers, both alternate.
 
     Args:
         told_of: Conflicts by edge.

@@ -490,7 +490,7 @@ _STEADY = seconds(0.1)
 
 
 def _in_time(model: Model, track: Track, least: float) -> Hit | None:
-    """Return a hit if an Odometry topic has the poses of a late transform in time; else None.
+    """Return a hit if a late transform's poses arrive in time on an Odometry topic; else None.
 
     Args:
         model: Model of the evidence.

@@ -87,7 +87,7 @@ class Stream:
     def wild(self) -> Mask:
         """Mask of single stamps that differ by more than an hour from their neighbours, shape (n,).
 
-        The mask is False if more than 1 % of the stamps differ, as with two clocks.
+        The mask is all False if more than 1 % of the stamps differ, as with two clocks.
         """
         far = np.zeros(len(self.stamps), dtype=np.bool_)
         if len(far) < 3:

@@ -389,7 +389,7 @@ def _repeated_jumps(
 
 
 def _trigger(model: Model, jumps: Stamps) -> tuple[str, int]:
-    """Find the rare position topic whose messages trigger all jumps, such as a GPS topic.
+    """Find the position topic of low rate, such as GPS, whose messages trigger all jumps.
 
     Args:
         model: Model of the evidence.
