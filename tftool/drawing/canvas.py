@@ -403,7 +403,7 @@ def axis_length(view: Viewport, rows: int) -> float:
 
 
 def metres(value: float, step: float) -> str:
-    """Format the label of a tick; `step`, the distance of two ticks, sets the decimals."""
+    """Format the label of a tick; the distance `step` between ticks sets the number of decimals."""
     digits = max(0, -math.floor(math.log10(step) + 1e-9))
     text = f"{value:.{digits}f}"
     return "0" if not text.strip("-0.") else text

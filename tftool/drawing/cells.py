@@ -214,10 +214,10 @@ def runs(cells: Iterable[tuple[str, str]]) -> list[tuple[str, str]]:
 def merged(layers: Sequence[Dots]) -> Dots:
     """Merge several curves into one picture.
 
-    A cell with several curves has the colour of a single curve. Curves that are not level take
-    precedence over level curves, and then curves with few cells of their own over curves with many.
-    This order is the same in all cells, so the colour does not alternate. Only where several level
-    curves coincide, dashes in alternating colours show that there are several.
+    A cell with several curves has the colour of one curve. Sloping curves take precedence over
+    horizontal curves, then curves with few unshared cells over curves with many. This order is the
+    same in all cells, so the colour does not alternate. Only where several horizontal curves
+    coincide, dashes in alternating colours show that there are several.
 
     Args:
         layers: The dots of each curve, all of one size; at least one.

@@ -81,7 +81,7 @@ def pieces(
     Args:
         snapshot: Frames to draw.
         ascii_only: Whether to draw the branches in ASCII.
-        moving: Frames of a robot description that a joint moves; None for other frames.
+        moving: Frames of a robot description that a joint moves; None for other sources.
         marks: Ids of the doctor's findings about each frame.
 
     Yields:
@@ -353,7 +353,7 @@ def compact(
         snapshot: Frames to draw.
         width: Width in cells.
         ascii_only: Whether to draw the tree lines in ASCII.
-        moving: Frames of a robot description that a joint moves; None for other frames.
+        moving: Frames of a robot description that a joint moves; None for other sources.
         marks: Ids of the doctor's findings about each frame.
         order: Order of the rows; tree lines are drawn only in the tree's own order.
         wanted: Text that the names of shown frames contain; in tree order, the ancestors of these

@@ -42,7 +42,7 @@ class Label:
         text: Text of the label.
         column: Column of the frame.
         row: Row of the frame.
-        reach: Cells that the frame's symbol takes to either side.
+        reach: Number of cells that the frame's symbol covers on each side of its centre.
     """
 
     name: str
@@ -154,7 +154,7 @@ def _around(reach: int, width: int, asides: tuple[int, ...]) -> Floats:
     Each row has the columns to the right of the symbol, the rows below the symbol, and the cost.
 
     Args:
-        reach: Cells that the symbol takes to either side.
+        reach: Number of cells that the symbol covers on each side of its centre.
         width: Width of the label in cells.
         asides: Distances in columns that the label may have from the symbol.
     """

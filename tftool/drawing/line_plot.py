@@ -240,7 +240,7 @@ def _titled(panel: PlotPanel, look: PlotLook, number: int, note: str) -> Text:
 
 
 def _value(last: float, largest: float) -> str:
-    """Format the last value of a curve, without digits that are noise beside `largest`.
+    """Format the last value of a curve; a value that is tiny compared with `largest` becomes "0".
 
     Args:
         last: The last value.
@@ -424,7 +424,7 @@ def pair_plot(
         height: Height in lines.
         palette: Colours of the screen.
         ascii_only: Whether to draw with ASCII characters.
-        note: Words after the last values, which are then dim, such as "9 s old".
+        note: Text after the last values, such as "9 s old"; the values are then dim.
     """
     columns = width - PAIR_LABELS - 1
     # A low plot has only the distance: its title has the yaw, and the time if no line has it.

@@ -95,7 +95,7 @@ class TurtleField:
 
 @dataclass(frozen=True, slots=True)
 class Drawn:
-    """Strokes of one drawing, to which strokes are only added until the drawing is replaced.
+    """Strokes of one drawing: new strokes are appended, until another drawing replaces all strokes.
 
     Attributes:
         strokes: The newest strokes, oldest first.

@@ -142,7 +142,7 @@ def _few(nodes: Iterable[str], width: int, more: str, *, after: Sequence[str] = 
     """Return the names of nodes in at most `width` cells.
 
     If the names are too long, return the first name and the number of other nodes. The names in
-    `after` (publishers of the same topic) come last, so a subscriber with another name is shown.
+    `after` (publishers of the same topic) come last, so that other names are shown.
     """
     found = sorted(set(nodes), key=lambda node: (node in after, node))
     names = ", ".join(map(visible, found)) or "-"

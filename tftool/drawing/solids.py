@@ -59,7 +59,7 @@ class Solids:
     colors: Floats
 
     def placed(self, poses: Mapping[str, Transform]) -> Floats:
-        """Return all corners in the coordinates of the given poses, metres, shape (n, 3).
+        """Return all corners in the frame in which `poses` are expressed, metres, shape (n, 3).
 
         Corners of frames without a pose are NaN.
         """
@@ -242,7 +242,7 @@ def _surface(shape: LinkShape, folders: MeshFolders) -> list[Mesh]:
 
 
 def _turned(outline: npt.NDArray[np.float64]) -> Mesh:
-    """Return the surface of revolution around the z axis of an outline (radius, height), (n, 2)."""
+    """Rotate an outline around the z axis to a surface; `outline` has rows (radius, height)."""
     angles = np.arange(_AROUND) * (2.0 * np.pi / _AROUND)
     radii, heights = outline[:, 0][:, None], outline[:, 1][:, None]
     rings = np.stack(

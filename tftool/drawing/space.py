@@ -255,7 +255,7 @@ def axis_length(view: Viewpoint, rows: int, frames: int) -> float:
 
 
 def is_tall(frames: Sequence[SpaceFrame]) -> bool:
-    """Whether frames differ more in height than in x and y, which a view from above hides."""
+    """Whether frames differ more in height (z), which a view from above hides, than in x and y."""
     if len(frames) < 2:
         return False
     across, along, up = (

@@ -90,7 +90,7 @@ class FittedColumns:
 def fit(
     columns: Sequence[TableColumn], width: int, *, wanted: int, longest: int, more: str = "…"
 ) -> FittedColumns:
-    """Drop columns that do not fit until the first column has `wanted` cells.
+    """Narrow or drop columns until at least `wanted` cells are left for the first column.
 
     Args:
         columns: Columns from left to right; a column without text is left out.

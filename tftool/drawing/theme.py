@@ -1,6 +1,6 @@
 """Colours of turtlesim, of frames by their names, and of screens and backgrounds.
 
-Colours that fade as in rviz are in the page's `screens/browser/page/model.js`.
+In the browser, frames without new samples fade: see `screens/browser/page/model.js`.
 """
 
 import zlib
@@ -49,7 +49,7 @@ def of_name(name: str) -> Color:
     """Return a name's colour, the same in every run on every machine.
 
     Names that end in a number use successive colours: `turtle1` and `turtle2` never look alike.
-    `_SALT` was chosen so that neighbours among the usual names differ: map, odom, base_link, world.
+    `_SALT` was chosen so that neighbours in map, odom, base_link, world have different colours.
     """
     stem = name.rstrip("0123456789")
     number = name[len(stem) :][-9:]
@@ -112,7 +112,7 @@ def is_stale(age: float) -> bool:
 
 
 def age_words(age: float) -> str:
-    """Format a frame's age: whole seconds if the frame is stale, so that all panels agree."""
+    """Format a frame's age in seconds: with one decimal, or without if the frame is stale."""
     return f"{age // 1:.0f} s" if is_stale(age) else f"{age:.1f} s"
 
 

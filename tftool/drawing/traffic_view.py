@@ -74,7 +74,7 @@ def frame_line(link: FrameTraffic, *, as_tf2: bool = False) -> str:
 
 
 def sender_line(name: str, series: Series, *, as_tf2: bool = False) -> str:
-    """Format the line about one broadcaster as tf2_monitor does, even without its second comma."""
+    """Format the line about one broadcaster like tf2_monitor, without a comma before "Max Delay"."""
     average, maximum = _delays(series, as_tf2)
     rate = series.tf2_rate if as_tf2 else series.rate
     return (
@@ -94,8 +94,8 @@ def table(
 ) -> Text:
     """Return a table of frames (of the chain, if one is given) and a table of publishers.
 
-    An edge is amber if its transforms arrive long after their stamps, or after a silence of many
-    periods. An edge is red after a longer silence. The limits are those of the doctor.
+    An edge is amber if its transforms arrive long after their stamps, or if it has been silent for
+    many periods. An edge is red after a longer silence. The limits are those of the doctor.
 
     Args:
         now: Current time of the clock in nanoseconds.
