@@ -115,7 +115,7 @@ class Displacement:
         worst_degrees: Largest angle.
         worst_at: Stamp in A of the largest difference in units of the tolerance; None if static.
         moments: Number of times at which the poses were compared.
-        moved_mm: Displacement x y z in the parent of A, if static in both sets; else None.
+        moved_mm: Displacement x y z along the parent axes in A, if static in both sets; else None.
         turned_deg: Rotation as roll pitch yaw, if static in both sets; else None.
     """
 
@@ -204,13 +204,13 @@ def compare(
 
     Static poses are compared directly. Frames that move in both sets are compared at common stamps.
     Without common stamps, the second set is interpolated at the stamps of the first set. If one set
-    has stamps since 1970 and the other has simulation times, both sets count from their own start.
+    has stamps since 1970 and the other has simulation times, times count from each set's start.
 
     Args:
         first: The first set of frames, called A in the result.
         second: The second set of frames, called B in the result.
         tolerance: Tolerated difference; None for the default.
-        align_starts: Whether times of each set always count from the start of this set.
+        align_starts: Whether times always count from each set's start.
 
     Raises:
         InputError: If a set has no frames.
@@ -432,7 +432,7 @@ def diff(
         mm: Tolerated displacement of a frame, millimetres.
         deg: Tolerated rotation of a frame, degrees.
         rate_percent: Tolerated difference of rates, percent; None to ignore rates.
-        align_starts: Whether times of each set always count from the start of this set.
+        align_starts: Whether times always count from each set's start.
 
     Returns:
         All frames with their changes. The truth value of the result is False if nothing changed.

@@ -100,7 +100,7 @@ def sample(buffer: Buffer, target: str, source: str, moments: Moments | None = N
         buffer: Source of the frames.
         target: Frame in which the results are expressed.
         source: Frame to look up.
-        moments: Times of the lookups; None for the stamps of the fastest frame on the path.
+        moments: Times of the lookups; None for the stamps of the edge of highest rate.
 
     Raises:
         TransformException: If a name is unknown, the frames are not connected, or no lookup

@@ -172,7 +172,7 @@ def trajectory_errors(
 
 
 def _nearest(a: TransformArray, b: TransformArray) -> tuple[TransformArray, TransformArray]:
-    """Match each pose of the shorter trajectory with the pose of the other nearest in time.
+    """Match each pose of the shorter trajectory with the longer trajectory's pose nearest in time.
 
     Returns:
         Poses of `a` and poses of `b`, row by row; pairs that are too far apart in time are left

@@ -39,7 +39,7 @@ class CalibrationRefused(TftoolError):
 
 
 def difference(mount: Transform, other: Transform) -> Floats:
-    """Return the difference between two mounts (poses of a frame on another), shape (6,).
+    """Return `mount` minus `other` (two poses of one frame on one parent), shape (6,).
 
     The numbers are metres along the parent's axes, then degrees about the child's axes.
     """
@@ -172,7 +172,7 @@ _DENSE: Final = 200
 def _steady(positions: Floats, turns: Floats) -> "npt.NDArray[np.intp]":
     """Return the indices of the poses without outliers, such as a tag that was detected flipped.
 
-    An outlier has a far larger median distance (or angle) to six neighbours than the poses around.
+    An outlier has a far larger median distance (or angle) to six neighbours than nearby poses have.
     Of the other poses, those far from the middle of their neighbours are outliers too.
     """
     kept = np.arange(len(turns))

@@ -296,7 +296,7 @@ class _Solver:
         return Fit(turn, shift, 0.0), pairs, _Shown(directions, None, ()), error
 
     def _prior_turn(self, found: Floats, is_planar: bool) -> Floats:
-        """Return the rotation of the published mount for a planar motion, else `found`."""
+        """Return the published rotation if there is one and the motion is planar, else `found`."""
         if not is_planar or self.published is None:
             return found
         return np.array(self.published.rotation)
@@ -337,7 +337,7 @@ class _Solver:
         return best[1], best[2]
 
     def _judged(self, pairs: MotionPairs, fit: Fit, shown: _Shown) -> _Shown:
-        """Return `shown`, or the parts that one axis determines if a second axis is noise."""
+        """Return `shown`; if a second axis of rotation is only noise, what one axis determines."""
         if shown.axis is not None:
             return shown
         values, vectors = np.linalg.eigh(pairs.turns_a.T @ pairs.turns_a / len(pairs.turns_a))

@@ -2,7 +2,7 @@
 
 In a time window, a rigid body turns by an angle that is the same for all points of the body and in
 all fixed frames. Both motions give this angle over time, each on its own clock. The offset is the
-time shift at which the two curves correlate best. Longer windows than the sample period reduce the
+time shift at which the two curves correlate best. Windows longer than the sample period reduce the
 noise.
 """
 
@@ -156,7 +156,7 @@ class _Correlation:
         return float(self.curve[self.peak]) if np.isfinite(self.curve).any() else -1.0
 
     def second_peak(self) -> float:
-        """Return the height of the highest peak outside the flanks of the highest peak of all."""
+        """Return the height of the second highest peak, outside the flanks of the highest peak."""
         curve, peak = np.nan_to_num(self.curve, nan=-1.0), self.peak
         low, high = peak, peak
         while low > 0 and curve[low - 1] <= curve[low]:
@@ -212,7 +212,7 @@ def _tops(sums: Floats) -> Floats:
 def _overlap(
     f: Floats, has_f: Floats, g: Floats, has_g: Floats, lag: int
 ) -> tuple[Floats, Floats, Floats]:
-    """Return the overlapping parts of two curves, and a mask of the overlap, all 0 in gaps.
+    """Return the overlapping parts of both curves, and a mask of the overlap; all are 0 in gaps.
 
     Args:
         f: Values of the first curve.

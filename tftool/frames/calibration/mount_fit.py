@@ -121,7 +121,7 @@ def refine(
         problem: The two motions.
         start: Initial state. The poses Y between the fixed frames are computed anew if there are
             more or fewer segments.
-        free: Directions in the space of the 9 parameters other than Y along which the fit may move.
+        free: Directions along which the fit may move, among the 9 parameters without the poses Y.
         segments: Time segment of each pose of motion B, numbered from 0 without gaps, shape (n,).
         rounds: Number of iterations.
     """
@@ -350,7 +350,7 @@ class MotionPairs:
 
 
 def pairs_of(problem: Problem, offset: float, longest: float = 10.0) -> MotionPairs:
-    """Choose pairs of poses between which the body turned by 12° to 150° in `longest` seconds."""
+    """Choose pairs of poses at most `longest` seconds apart, with large rotations up to 150°."""
     places, turns, valid = problem.a.at(problem.times + offset)
     known = np.flatnonzero(valid)
     dice = np.random.default_rng(0)

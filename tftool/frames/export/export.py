@@ -119,7 +119,7 @@ def export(
         format: Name of a `Format`, such as "euroc", which replaces the format of the suffix.
         start: Time before which nothing is written, nanoseconds.
         end: Time after which nothing is written, nanoseconds.
-        period: Time between lookups, nanoseconds; None for the stamps of the fastest frame.
+        period: Nanoseconds between lookups; None for the stamps of the frame with the highest rate.
         stamps: Times of the lookups instead of `start`, `end` and `period`, nanoseconds, shape
             (n,).
         decimals: Number of decimals; see `Style`.

@@ -82,7 +82,7 @@ SUFFIXES: Final = {suffix: form for form in Format for suffix in form.suffixes}
 
 
 def suffixes_of(*, trajectories: bool) -> str:
-    """Return the first suffixes of all formats for trajectories, or for links, as a text."""
+    """Return the first suffix of each trajectory format, or of each format for links, as a text."""
     forms = [form for form in Format if form.suffixes and form.is_trajectory == trajectories]
     return " ".join(form.suffixes[0] for form in forms)
 

@@ -1,7 +1,7 @@
 """Writers of trajectory files (TUM, KITTI, EuRoC, CSV, npz, Parquet), and fast number formatting.
 
-Stamps stay whole nanoseconds, because floats of present times, in seconds, have steps of 238 ns. A
-file appears under its final name only when complete.
+Stamps stay whole nanoseconds, because seconds since 1970 have steps of 238 ns as floats. A file
+appears under its final name only when it is complete.
 """
 
 import csv
@@ -411,7 +411,7 @@ def _writer(
     progress: Progress | None,
     before: bytes = b"",
 ) -> "Callable[..., None]":
-    """Return the fastest function that can write the rows of `rows` with these decimals."""
+    """Return a function that writes lines of numbers to `file`, with `before` before each line."""
     done = 0
 
     def write(
