@@ -170,10 +170,10 @@ _DENSE: Final = 200
 
 
 def _steady(positions: Floats, turns: Floats) -> "npt.NDArray[np.intp]":
-    """Return the indices of the poses without outliers, such as a tag that was detected flipped.
+    """Return the indices of all poses except outliers, such as the flipped pose of a detected tag.
 
     An outlier has a far larger median distance (or angle) to six neighbours than nearby poses have.
-    Of the other poses, those far from the middle of their neighbours are outliers too.
+    Of the other poses, those far from the midpoints of their neighbours are outliers too.
     """
     kept = np.arange(len(turns))
     if len(turns) < _DENSE:
