@@ -406,7 +406,7 @@ class File:
         """Read `count` bytes from an offset.
 
         Raises:
-            InputError: If the file is shorter, or `count` is above `LARGEST`.
+            InputError: If the file ends before `place + count`, or `count` is above `LARGEST`.
         """
         if count < 0 or place < 0 or place + count > self.size:
             raise InputError(
@@ -429,7 +429,7 @@ class File:
         """Fill a buffer with the bytes from an offset.
 
         Raises:
-            InputError: If the file is shorter.
+            InputError: If the file ends before the buffer is full.
         """
         if hasattr(os, "preadv") and 0 <= place <= self.size - len(room):
             self.read += len(room)

@@ -75,7 +75,7 @@ class Publisher:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Edge:
-    """All transforms of one pair of parent and child, either static or moving, in recorded order.
+    """All static or all moving transforms of one pair of parent and child, in recorded order.
 
     Attributes:
         parent: Parent frame, as recorded but without a leading slash.

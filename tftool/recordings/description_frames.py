@@ -272,7 +272,7 @@ def add_described(
     frames: Collection[str],
     prefix: str = "",
 ) -> DescribedFrames:
-    """Insert the frames of a robot description that `frames` lacks into a buffer.
+    """Insert into a buffer the frames of a robot description that are missing in `frames`.
 
     Args:
         buffer: Buffer with the recorded transforms.

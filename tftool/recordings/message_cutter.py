@@ -33,7 +33,7 @@ MOST_WAITING: Final = 1 << 26
 
 
 class Cutter:
-    """Base class of decoders that append the transforms of messages of one byte layout to a table.
+    """Base class of decoders, which append transforms from messages of one byte layout to a table.
 
     Messages are collected until there are enough for array operations. Unusual messages are parsed
     one by one.
@@ -285,7 +285,7 @@ def cutter(table: Table, layout: Layout, static: bool) -> Cutter:
 
 
 class Decoding:
-    """Decoder of transforms in types other than TFMessage, one message at a time, into a table."""
+    """Decoder that appends transforms to a table, for messages of types other than TFMessage."""
 
     def __init__(self, table: Table, decode: Decoder, static: bool) -> None:
         self._table = table

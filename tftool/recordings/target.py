@@ -187,7 +187,7 @@ def remove(path: Path) -> None:
 
 
 def synced(path: Path) -> None:
-    """Wait until a file or folder is on the disk."""
+    """Flush a file or folder to the disk, if the file system can do so."""
     number = os.open(path, os.O_RDONLY)
     try:
         os.fsync(number)

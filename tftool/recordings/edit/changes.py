@@ -177,7 +177,7 @@ class Changer:
     Attributes:
         window: Time span to keep; None to keep all times.
         counts: Number of changes, by kind of change.
-        topics: Topics with transforms that change; None if any topic may change.
+        topics: Topics whose transforms the edit changes; None if all topics must be examined.
         passed_over: Reason why the frame names on a topic cannot be changed, by topic.
     """
 

@@ -71,7 +71,7 @@ class EditedDatabase:
 
         Args:
             change: Function that changes messages.
-            touched: Numbers of the topics whose messages may change.
+            touched: Numbers of the topics whose messages can change.
 
         Raises:
             InputError: If the file cannot be written.

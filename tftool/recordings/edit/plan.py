@@ -217,7 +217,7 @@ def _check_names(edits: Edits, recordings: Sequence[Recording]) -> None:
 
 
 def _concerned(edits: Edits, recordings: Sequence[Recording]) -> frozenset[str] | None:
-    """Return the topics with transforms that the edit changes; None if any topic may change."""
+    """Return the topics whose transforms the edit changes; None if all topics must be examined."""
     wanted = [*edits.drop, *edits.poses, *edits.reparent]
     if not wanted or edits.names or edits.stamps or edits.statics_from:
         return None

@@ -172,7 +172,7 @@ class PoseFile:
         return stamp
 
     def at_rate(self, link: PoseLink) -> None:
-        """Compute stamps for a link's poses from --pose-rate; the first stamp is one period.
+        """Compute a link's stamps from --pose-rate; the first stamp is one period after 0.
 
         Raises:
             InputError: If --pose-rate was not given.
