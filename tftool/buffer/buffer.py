@@ -588,7 +588,7 @@ class Buffer(Door):
     ) -> solver.Velocity:
         """Return the velocity of `tracking_frame` in `observation_frame`, by tf2's formula.
 
-        `solver.full` describes the mistakes in tf2's formula; `lookup_twist` avoids them.
+        `solver.full` describes the mistakes in tf2's formula, which `lookup_twist` avoids.
         """
         return solver.full(
             self,

@@ -323,7 +323,7 @@ class FrameTree:
         return walk.close(UNCONNECTED)
 
     def is_steady(self, walk: Walk) -> bool:
-        """Whether the path that `walk` found is the path at every time with data.
+        """Whether the path that `walk` found is valid at every time with data.
 
         Also true if frames above the common ancestor change their parents, as long as no path
         through these frames can form a loop or become too long.

@@ -686,8 +686,8 @@ class History(Fields):
         """Move many samples into large memory pages, if the system has large pages.
 
         Random lookups over five links of 100 000 samples take a quarter less time. When the memory
-        is full, the array grows on ordinary pages; it moves to large pages again only at twice the
-        length.
+        is full, the array grows on ordinary pages; it moves to large pages again only when it is
+        twice as long.
         """
         self.large_from = 2 * self.count
         records = self.records

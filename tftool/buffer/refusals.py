@@ -237,7 +237,7 @@ def too_many_frames(child: str, authority: str, limit: int) -> str:
 
 
 def long_name(child: str, parent: str, authority: str, limit: int) -> str:
-    """Return the log line for a frame name above `limit` bytes; "" if both names are shorter."""
+    """Return the log line for a frame name above `limit` bytes; "" if neither name is too long."""
     for name, field in ((child, "child_frame_id"), (parent, "frame_id")):
         # A character in UTF-8 has at most four bytes, so a short name needs no encoding.
         if 4 * len(name) <= limit:

@@ -161,7 +161,7 @@ class Traffic:
         self.senders: dict[str, Series] = {}
 
     def link(self, frame: str) -> FrameTraffic:
-        """Return the recent messages about a frame, after adding an unknown frame."""
+        """Return the recent messages about a frame; create an empty record for a new frame."""
         return self.links.setdefault(frame, FrameTraffic(frame))
 
     def receive(

@@ -182,9 +182,9 @@ def stamps_of(times: npt.ArrayLike, name: str) -> Stamps:
 class Buckets:
     """Index that divides the time from the first to the last sample into short, equal buckets.
 
-    To find the samples before times in random order, two loads and a comparison replace a binary
-    search. A bucket spans a power of two of nanoseconds and at most half the distance between
-    samples, so that one comparison is nearly always enough.
+    For times in random order, two loads and a comparison per time replace a binary search. A
+    bucket spans a power of two of nanoseconds and at most half the distance between samples, so
+    that one comparison is nearly always enough.
     """
 
     __slots__ = ("_before", "_next", "_oldest", "_shift", "_stamps", "_steps")
