@@ -44,7 +44,7 @@ def array_check(
         kind: The elements' type.
         size: Number of elements; -1 for a sequence.
         bound: Maximum length of a sequence; None without a bound.
-        element: The check of one element.
+        element: Function that checks one element.
     """
     code = typecode(kind)
     word = kind if isinstance(kind, str) else kind.__name__

@@ -250,7 +250,7 @@ class Reader:
         return length
 
     def count(self, smallest: int, bound: int | None) -> int:
-        """Read the number of items of a list, and check that the remaining bytes can suffice.
+        """Read the number of items of a list, and check that enough bytes remain for the items.
 
         Args:
             smallest: Smallest size of an item, bytes.
