@@ -67,7 +67,7 @@ class RollingRecording:
         path: Final name of the file or folder.
         messages: Number of received messages; once a recording with a ring buffer is closed, the
             number of written messages.
-        transforms: Number of transforms in the counted messages.
+        transforms: Number of transforms in the messages that `messages` counts.
         size: Number of bytes written, or stored in the ring buffer.
         files: Names of the completed files, in order.
     """

@@ -70,7 +70,7 @@ class EditedFile:
             ros2: Whether ROS 1 messages are converted to ROS 2.
             packs: Whether each message is compressed separately, as in rosbag2's mode "message".
             latched: Topics that must offer their last message to late subscribers.
-            first_free: First number that no input uses for a channel or a schema.
+            first_free: Smallest number above the numbers of all channels and schemas of the inputs.
         """
         self.path = path
         self.container = container

@@ -409,7 +409,7 @@ class _Job:
         return output
 
     def _first_free(self) -> int:
-        """Return the first number that no input uses for a channel or a schema."""
+        """Return the smallest number above the numbers of all the inputs' channels and schemas."""
         used = [0]
         for tape in self._tapes:
             used += tape.channels

@@ -280,7 +280,7 @@ class Mcap(ChunkedReader):
     # Sequential reading
 
     def _index(self) -> None:
-        """Build an index of a file without an index, up to the file's end or its damage.
+        """Build the index of a file without an index, up to the end or first damage.
 
         Raises:
             InputError: If nothing of the file can be read.

@@ -78,7 +78,7 @@ def _images(file: PoseFile, images: list[tuple[str, list[float]]], width: int) -
 
 
 def read_kalibr(file: PoseFile) -> list[PoseLink]:
-    """Return the links in kalibr's camchain.yaml: from the IMU or previous camera to each camera."""
+    """Return the links in kalibr's camchain.yaml: IMU or previous camera to each camera."""
     document = _yaml(file)
     cameras = sorted((name for name in document if _is_camera(name)), key=lambda one: int(one[3:]))
     links = []
@@ -329,7 +329,7 @@ def read_npz(file: PoseFile) -> list[PoseLink]:
     """Return the link in a NumPy archive of `tftool export`.
 
     Raises:
-        InputError: If the file has other arrays, or their shapes do not match.
+        InputError: If an array of `tftool export` is missing, or the shapes do not match.
     """
     import zipfile
 
@@ -380,7 +380,7 @@ def read_parquet(file: PoseFile) -> list[PoseLink]:
     """Return the links in a Parquet table of `tftool export`.
 
     Raises:
-        InputError: If the file has other columns.
+        InputError: If a column of `tftool export` is missing.
         UsageError: If the extra `parquet` is not installed.
     """
     try:

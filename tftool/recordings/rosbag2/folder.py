@@ -119,7 +119,7 @@ def _joined(paths: Sequence[Path], damage: list[str], *, by_time: bool = False) 
 
 
 def _listed(folder: Path, damage: list[str]) -> list[str]:
-    """Return the file names in the metadata of a folder, without paths."""
+    """Return the file names in a folder's metadata, without paths; append faults to `damage`."""
     path = folder / METADATA
     if not path.exists():
         damage.append(f"There is no {METADATA}: the files are read without metadata.")
