@@ -29,7 +29,7 @@ def rate(link: Link) -> float:
 
 
 def rate_of(samples: int, span: Duration) -> float:
-    """Return the rate in hertz, by tf2's formula, of a number of samples in `span` nanoseconds."""
+    """Return the rate of `samples` samples in `span` nanoseconds, hertz, by tf2's formula."""
     return samples * 1e9 / max(span, _SHORTEST)
 
 

@@ -2,8 +2,8 @@
 
 A publisher sends the same frames again and again: its messages have equal lengths and names, and
 differ only in stamps and numbers. Python parses the first message and stores the byte offsets of
-stamps and numbers. A later message of the same length is not parsed: numpy only checks that all its
-other bytes equal those of the first message.
+stamps and numbers. A later message of the same length is not parsed: numpy only checks that
+its other bytes equal the bytes of the first message.
 """
 
 import struct

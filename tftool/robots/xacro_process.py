@@ -117,8 +117,8 @@ def _expanded(path: str, arguments: dict[str, str]) -> dict[str, str]:
 def _as_installed(package: Path) -> Path:
     """Return a folder like the share folder of a package after its installation by CMake.
 
-    `install(DIRECTORY description/urdf DESTINATION share/…)` copies urdf/ beside package.xml. A
-    temporary folder with symbolic links reproduces this. Without such lines, return `package`.
+    If CMakeLists.txt has `install(DIRECTORY description/urdf DESTINATION share/…)`, CMake copies
+    urdf/ beside package.xml, and a folder of symbolic links reproduces this. Else return `package`.
     """
     try:
         text = (package / "CMakeLists.txt").read_text(encoding="utf-8", errors="replace")
