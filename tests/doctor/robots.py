@@ -159,12 +159,15 @@ class Robot:
                 names,
                 _places(names.index(frame) for _, _, frame in rows),
             )
-        every = [*logs.tolist(), *(int(h.log_times.max()) for h in headers.values())]
+        every = [*logs.tolist(), *(int(h.log_times.max()) for h in headers.values() if len(h))]
         topics = tuple(
             RecordedTopic(
                 name, "tf2_msgs/TFMessage", transforms=True, static=name.endswith("tf_static")
             )
             for name in sorted({publisher.topic for publisher in self.publishers})
+        )
+        topics += tuple(
+            RecordedTopic(name, kind, count=len(rows)) for name, (kind, rows) in self.heard.items()
         )
         clock = np.array(self.clock, dtype=np.int64).reshape(-1, 2)
         described, mistakes = self._description()

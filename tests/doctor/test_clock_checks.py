@@ -234,6 +234,21 @@ def test_without_a_clock_stamps_near_1970_may_be_a_simulation_or_not():
     assert "use_sim_time: false" in found(made, "clock-mixture").fixes[0].text
 
 
+@pytest.mark.parametrize("is_described", [True, False])
+def test_wheels_on_another_clock_than_their_simulated_robot_are_no_real_device(is_described):
+    made = Robot(start=12.0, log_from=START)
+    made.moving("odom", "base_link")
+    made.clock = [(seconds(12.0 + 0.1 * i), seconds(START + 0.1 * i)) for i in range(81)]
+    for tick in range(100):
+        made.sent("cart", "wheel", 0.08 * tick, stamp=seconds(START + 0.08 * tick))
+    joint = '<joint name="j" type="continuous"><parent link="cart"/><child link="wheel"/></joint>'
+    made.urdf = f'<robot name="r"><link name="cart"/><link name="wheel"/>{joint}</robot>'
+    if not is_described:
+        made.urdf = ""
+    (fix,) = found(made, "clock-mixture").fixes
+    assert fix.text.startswith("set use_sim_time: true") is is_described
+
+
 def test_dating_ahead_by_a_period_or_of_a_constant_is_by_design():
     made = robot()
     made.moving("map", "odom", 20.0, stands, offset=0.05)

@@ -101,6 +101,30 @@ def test_statics_that_are_missing_explain_frames_that_are_unknown():
     assert found(made, "unknown-frame").because_of == "static-missing"
 
 
+def test_a_recording_without_statics_of_a_robot_at_rest_lacks_their_topic():
+    made = Robot()
+    made.moving("odom", "base_link", pose=stands)
+    made.hears("/front", "front_laser_link")
+    made.hears("/back", "back_laser_link")
+    assert ids(made) == ["static-missing"]
+    finding = found(made, "static-missing")
+    assert finding.frames == ("back_laser_link", "front_laser_link")
+    # Whether the robot has statics is unknown, as nobody recorded their topic.
+    assert finding.severity is Severity.WARNING
+
+
+@pytest.mark.parametrize(("ahead", "is_cut"), [(0.0, True), (0.5, False)])
+def test_trees_of_one_state_publisher_lack_the_static_transforms_between_them(ahead, is_cut):
+    made = Robot()
+    made.moving("odom", "base_link")
+    made.moving("base_link", "arm", node="/robot_state_publisher")
+    # Early ROS 1 dates fixed joints half a second ahead, and has no other static transforms.
+    made.moving("hand", "finger", 50, stands, offset=ahead, node="/robot_state_publisher")
+    (fix,) = found(made, "split-tree").fixes
+    assert ("static, and not in the recording: record /tf and /tf_static" in fix.text) is is_cut
+    assert not (is_cut and fix.command)
+
+
 def test_joint_states_without_transforms_of_joints_need_robot_state_publisher():
     made = robot(laser=False)
     made.hears("/joint_states", "", kind="sensor_msgs/JointState")

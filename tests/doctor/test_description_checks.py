@@ -58,6 +58,19 @@ def test_a_joint_without_state_explains_the_links_below_it():
     assert found(made, "urdf-frame-unpublished").because_of is None
 
 
+def test_the_topic_of_joint_states_is_named_as_it_was_recorded():
+    made = robot()
+    made.urdf = urdf(LASER_JOINT, "caster: continuous base_link caster_link")
+    made.joints = frozenset()
+    made.hears("/car/joint_states", "", hz=0.0, kind="sensor_msgs/JointState")
+    finding = found(made, "joint-without-state")
+    assert finding.evidence[0].endswith("; /car/joint_states has no message in it")
+    assert finding.fixes[0].text.endswith("/car/joint_states`")
+
+    made.hears("/car/joint_states", "", kind="sensor_msgs/JointState")
+    assert "no message" not in found(made, "joint-without-state").evidence[0]
+
+
 def test_a_joint_whose_frame_another_node_publishes_needs_no_state():
     made = robot()
     made.urdf = urdf(LASER_JOINT, "caster: continuous base_link caster_link")

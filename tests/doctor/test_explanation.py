@@ -265,7 +265,7 @@ def test_the_message_nearest_to_a_moment_is_found():
     model = Model(robot().evidence())
     heard, stamp = message_of(model, "/scan", T + seconds(4.04))
     assert (heard.frame, stamp) == ("laser", T + seconds(4))
-    with pytest.raises(InputError, match="There are /scan"):
+    with pytest.raises(InputError, match="Topics with headers: /scan"):
         message_of(model, "/scam", None)
 
 

@@ -92,7 +92,8 @@ def clock_mixture(model: Model, limits: Limits) -> Iterator[Hit]:
     elif apart:
         so = "none for lookups within each tree; nothing of one can be placed in the other"
         severity = Severity.WARNING
-        fix = Fix("a real device beside a simulated robot is right as it is")
+        if not any(track.child in model.joint_above for track in tracks):
+            fix = Fix("a real device beside a simulated robot is right as it is")
     yield Hit(
         frames=apart,
         severity=severity,

@@ -28,9 +28,9 @@ check = checks_of(Area.COVERAGE)
     Severity.ERROR,
     rule="no topic for static transforms has a message, and messages are in frames that are in no "
     "transform, but are mounts by the description or by a name such as laser_link. A warning "
-    "if none of these messages is a scan, a point cloud or a range, or if tf has no base "
-    "frame. Not reported if the recording has no such topic and constants are sent on /tf, as "
-    "in early ROS 1",
+    "if the recording has no such topic, if none of these messages is a scan, a point cloud or a "
+    "range, or if tf has no base frame. Not reported if the recording has no such topic and "
+    "constants other than odometry are sent on /tf, as in early ROS 1",
     headline="no transform names {frames}: {why}",
     detail="messages are in {frames}, which no transform names",
     consequence="these messages cannot be placed",
@@ -73,7 +73,7 @@ def static_missing(model: Model, limits: Limits) -> Iterator[Hit]:
         count=sum(len(heard.stamps) for heard in unknown),
         facts={"frames": names, "why": why},
         severity=None
-        if has_base(model) and any(last_part(heard.type) in PLACED for heard in unknown)
+        if static and has_base(model) and any(last_part(heard.type) in PLACED for heard in unknown)
         else Severity.WARNING,
         fixes=(Fix(cure),),
         alone=True,

@@ -8,7 +8,8 @@ import numpy as np
 from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
-from tftool.doctor.stamp_stream import PLACED, last_part
+from tftool.doctor.stamp_stream import JOINT_STATES, PLACED, last_part
+from tftool.doctor.wording import several
 from tftool.geometry.quaternions import angle_between
 from tftool.geometry.rigid_arrays import unit
 from tftool.robots.description import RobotJoint
@@ -16,7 +17,7 @@ from tftool.robots.robot_model import Robot
 
 check = checks_of(Area.DESCRIPTION)
 
-_STATES = "look who publishes joint states: `{publishers} /joint_states`"
+_STATES = "look who publishes joint states: `{publishers} {states}`"
 
 
 @check(
@@ -48,7 +49,7 @@ def urdf_invalid(model: Model, limits: Limits) -> Iterator[Hit]:
     "and its link is in no transform. A warning if no scan, point cloud or range is in a "
     "frame below the joint",
     headline="{joint} has no state: {child} has no frame",
-    detail="{joint} ({kind}) moves {below}",
+    detail="{joint} ({kind}) moves {below}{silent}",
     consequence="robot_state_publisher publishes nothing below such a joint",
     fixes=(Fix(_STATES),),
     causes=(
@@ -68,6 +69,10 @@ def joint_without_state(model: Model, limits: Limits) -> Iterator[Hit]:
     robot, told = model.evidence.robot, model.evidence.joints
     if robot is None or told is None:
         return
+    topics = sorted(one.name for one in model.evidence.topics if one.type == JOINT_STATES)
+    is_silent = bool(topics) and not any(
+        one.count for one in model.evidence.topics if one.type == JOINT_STATES
+    )
     for joint in robot.joints.values():
         child = model.prefix + joint.child
         if not joint.moves or joint.mimic is not None or joint.name in told:
@@ -83,6 +88,8 @@ def joint_without_state(model: Model, limits: Limits) -> Iterator[Hit]:
                 "child": child,
                 "below": below,
                 "kind": joint.type,
+                "states": topics[0] if topics else "/joint_states",
+                "silent": f"; {several(topics)} has no message in it" * is_silent,
             },
             severity=None
             if any(last_part(h.type) in PLACED and h.frame in (child, *below) for h in model.heard)

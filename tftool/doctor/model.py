@@ -4,6 +4,7 @@ The checks read this model. The module `evidence` reads the files.
 """
 
 import re
+from collections import defaultdict
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -198,16 +199,30 @@ class Model:
             return False
         if any(topic.static for topic in self.evidence.topics):
             return True
-        return all(track.moves or len(track.by_stamp) < 2 for track in self.dynamic)
+        return bool(self.parted) or all(
+            track.moves or len(track.by_stamp) < 2 or track.is_odometry for track in self.dynamic
+        )
+
+    @cached_property
+    def parted(self) -> tuple[Tree, ...]:
+        """Trees that contain frames of the same robot_state_publisher; empty for a single tree.
+
+        A robot description is one tree, so the fixed joints between these trees are missing. Early
+        ROS 1 sends fixed joints on /tf, half a second ahead; then they are not missing.
+        """
+        of: dict[str, set[str]] = defaultdict(set)
+        for track in () if self.statics else self.dynamic:
+            if track.median_latency > -_AHEAD:
+                for node in track.nodes:
+                    of[node].add(self.tree_of[track.child].root)
+        nodes = [node for node in of if "state_publisher" in node and len(of[node]) > 1]
+        return tuple(tree for tree in self.trees if nodes and tree.root in of[nodes[0]])
 
     @cached_property
     def lacks_state_publisher(self) -> bool:
         """Whether joint states arrived, but all transforms come from odometry or localisers."""
         came = any(h.type == JOINT_STATES and len(h) for h in self.evidence.headers.values())
-        return came and all(
-            track.is_localisation or last_part(track.parent).startswith("odom")
-            for track in self.tracks
-        )
+        return came and all(track.is_odometry for track in self.tracks)
 
     @cached_property
     def start(self) -> Stamp:

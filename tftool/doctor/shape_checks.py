@@ -189,6 +189,11 @@ def nothing_says(model: Model, root: str, mount: str = "") -> Fix:
         mount: Command that publishes the root as a sensor's mount; empty for other frames.
     """
     is_cut = model.lacks_statics and model.evidence.recorded
+    if is_cut and model.parted:
+        return Fix(
+            "robot_state_publisher sends frames of several trees, so the transforms that join them "
+            f"are static, and not in the recording: {model.words['record']}"
+        )
     static = "; the statics are missing from the recording, and it may be one of them" * is_cut
     measure = "; if it is mounted on the robot, measure where, and publish it:" * bool(mount)
     return Fix(f"nothing in the data says where to join {root}{static}{measure}", mount)

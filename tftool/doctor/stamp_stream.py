@@ -327,6 +327,11 @@ class Track(Stream):
             return child.startswith("map")
         return parent in ("map", "earth", "world") and child.startswith(("odom", "map"))
 
+    @property
+    def is_odometry(self) -> bool:
+        """Whether the edge is a robot's odometry or localisation, judged by the frame names."""
+        return self.is_localisation or last_part(self.parent).startswith("odom")
+
     @cached_property
     def moves(self) -> bool:
         """Whether the poses of the edge's samples differ."""
