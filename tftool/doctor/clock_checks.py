@@ -249,7 +249,7 @@ def future_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _by_design(track: Track, ahead: int) -> bool:
-    """Whether a publisher stamps a transform ahead of time on purpose.
+    """Whether a publisher gives a transform a stamp in the future on purpose.
 
     Some ROS 1 publishers do so, to keep the transform valid until the next sample.
 
@@ -437,7 +437,7 @@ def _is_shared(model: Model, aheads: Sequence[Duration]) -> bool:
 
 
 def _is_of_transforms(model: Model, ahead: Duration) -> bool:
-    """Whether all moving transforms are stamped `ahead` nanoseconds ahead, like the sensor data."""
+    """Whether the stamps of all moving transforms are about `ahead` nanoseconds after reception."""
     moving = [one for one in model.dynamic if one.moves and not one.is_localisation]
     return bool(moving) and all(abs(one.median_latency + ahead) < _ONE_CLOCK for one in moving)
 

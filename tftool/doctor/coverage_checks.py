@@ -206,7 +206,7 @@ class Waits:
     Attributes:
         stamps: The messages' stamps, shape (n,).
         waits: Time from the arrival of each message until the lookup at its stamp succeeds,
-            nanoseconds, shape (n,); NEVER if no lookup ever succeeds.
+            nanoseconds, shape (n,); NEVER if the lookup always fails.
         link: The edge that delays most lookups.
         links: The moving edges on the path between the message's frame and the fixed frame.
     """

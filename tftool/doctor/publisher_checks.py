@@ -412,7 +412,7 @@ def static_on_tf(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _could_move(model: Model, track: Track) -> bool:
-    """Whether the description, Odometry or joint states show that an edge may move."""
+    """Whether the description, Odometry or joint states show that an edge can move."""
     joint = model.joint_above.get(track.child)
     if joint is not None:
         return joint.moves

@@ -334,7 +334,7 @@ class Track(Stream):
 
     @cached_property
     def moves(self) -> bool:
-        """Whether the poses of the edge's samples differ."""
+        """Whether the edge's samples have different poses."""
         usable = np.flatnonzero(self.usable)
         if len(usable) < 2:
             return False

@@ -68,7 +68,7 @@ class PlotLook:
         height: Height in lines; None for a height that suits the panels.
         ascii_only: Whether to draw with ASCII characters.
         light: Whether the background is light.
-        numbered: Whether to show each curve's number: the key that hides the curve.
+        numbered: Whether to show each curve's number, which is the key to press to hide the curve.
         hidden: Numbers of the curves that are hidden.
         marked: Whether to write each curve's number on the curve, in addition to its colour.
     """

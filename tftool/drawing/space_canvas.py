@@ -94,8 +94,8 @@ class DrawnSpace:
         image: Red, green and blue from 0 to 255 of the solids at every dot.
         depth: Nearest triangle at every dot, and its depth.
         layers: Lines in the order in which they are drawn.
-        edges: Mask of the dots at edges of a solid's part in front of another part. In a plain
-            picture, also of the dots at outer edges of solids.
+        edges: Mask of the dots at inner outlines, where a part is in front of another. In a plain
+            picture, also of the dots at outer outlines of solids.
         names: Labels, the most important first: the frame, the text, the number of frames at this
             position, and the column and row in dots from the upper left corner.
         grid: Metres between two lines of the grid.
@@ -260,7 +260,7 @@ def _shades(corners: Floats, triangles: Indices, owners: Indices) -> Floats:
 
 
 def _edges(whose: Indices, depths: Floats) -> npt.NDArray[np.bool_]:
-    """Return a mask of the inner outlines: points in front of a neighbour on another part.
+    """Return a mask of the inner outlines: points behind a neighbour on another part.
 
     Args:
         whose: Index of the part at each point; -1 without a solid.

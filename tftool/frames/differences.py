@@ -185,11 +185,11 @@ class Differences:
 
     @property
     def changed(self) -> tuple[LinkDifference, ...]:
-        """Return the frames that differ by more than the tolerance."""
+        """Return the frames that differ between A and B by more than the tolerance."""
         return tuple(one for one in self.links if not one.is_same)
 
     def __bool__(self) -> bool:
-        """Whether any frame differs by more than the tolerance."""
+        """Whether any frame differs between A and B by more than the tolerance."""
         return bool(self.changed)
 
 

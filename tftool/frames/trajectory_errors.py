@@ -253,7 +253,7 @@ def _pieces(path: TransformArray, step: PieceLength) -> tuple["np.ndarray", "np.
         Index of the first pose and index of the last pose of each part.
 
     Raises:
-        InputError: If the trajectory is shorter than one step.
+        InputError: If the trajectory is shorter than one part.
     """
     if step.unit == "frames":
         places = np.arange(0, len(path), int(step.size))

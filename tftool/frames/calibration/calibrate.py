@@ -312,7 +312,7 @@ class _Solver:
     def _best(self, problem: Problem, start: Fit, shown: _Shown) -> tuple[Fit, float]:
         """Return the fit with the smallest confidence intervals.
 
-        Each fit divides the time into segments of another length. Segments in which the residuals
+        Each fit divides the time into segments of its own length. Segments in which the residuals
         grow are too long: odometry drifts in them, and bootstrapped intervals hide such a drift.
 
         Returns:
