@@ -113,7 +113,7 @@ class Displacement:
         degrees: Angle of rotation; for a moving frame, the root mean square of the angles.
         worst_millimetres: Largest distance.
         worst_degrees: Largest angle.
-        worst_at: Stamp in A of the largest difference in units of the tolerance; None if static.
+        worst_at: Stamp in A of the largest difference relative to the tolerance; None if static.
         moments: Number of times at which the poses were compared.
         moved_mm: Displacement x y z along the parent axes in A, if static in both sets; else None.
         turned_deg: Rotation as roll pitch yaw, if static in both sets; else None.

@@ -31,7 +31,7 @@ class PieceLength:
 
     Attributes:
         size: Length, in `unit`.
-        unit: "frames", "m" or "deg".
+        unit: "frames" (poses), "m" or "deg".
     """
 
     size: float = 1.0
