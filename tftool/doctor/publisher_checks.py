@@ -478,7 +478,7 @@ def parent_switch(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _by_child(tracks: Sequence[Track], least: int = 2) -> dict[str, list[Track]]:
-    """Return the edges to each child frame with at least `least` parents, by the child's name."""
+    """Return the edges to each child that has at least `least` parents, by the child's name."""
     grouped: dict[str, list[Track]] = defaultdict(list)
     for track in tracks:
         if len(track.by_stamp):
