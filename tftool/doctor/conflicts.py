@@ -67,11 +67,13 @@ def fed_twice(track: Track, hit: Hit, limits: Limits) -> Hit | None:
     )
     told = _conflict(track, ("A", "B"), (moving, resting[near]), Confidence.LIKELY)
     text = f"one value {len(resting):,} times, others {len(moving):,} times, by turns"
+    facts = {**told.facts, "told": text}
+    if not is_revolute(track) and not any("state_publisher" in node for node in track.nodes):
+        return replace(told, facts=facts)
     cure = (
         "find who publishes joint states: `{publishers} /joint_states`; one of them always sends "
         "one value"
     )
-    facts = {**told.facts, "told": text}
     return replace(told, facts=facts, fixes=(Fix(cure),))
 
 
@@ -367,8 +369,11 @@ def _conflict(
     known = confidence is Confidence.CERTAIN
     apart, turned = track.apart(*owned), track.turned(*owned)
     seen = f": {names[0]} and {names[1]}" if known else ", by turns"
-    if not known and len(track.nodes) == 1 and len(track.publishers) == 1:
+    is_one = not known and len(track.nodes) == 1 and len(track.publishers) == 1
+    fix = find_publishers([track])
+    if is_one:
         seen = f", by turns, both sent by {track.nodes[0]}"
+        fix = Fix(f"look where {track.nodes[0]} gets each of the two values from")
     still = [
         f"; all poses of {name} are equal"
         for name, places in zip(names, owned, strict=True)
@@ -397,8 +402,9 @@ def _conflict(
             "worst": float(np.max(apart)),
             "most_turned": float(np.max(turned)),
             "seen": seen,
+            "two": 0 if is_one else 1,
         },
-        fixes=(find_publishers([track]),),
+        fixes=(fix,),
         alone=True,
     )
 

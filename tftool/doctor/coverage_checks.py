@@ -352,9 +352,9 @@ def _waiting(model: Model, limits: Limits) -> Iterator[tuple[Heard, Waits]]:
 
 
 def _is_result(model: Model, heard: Heard, link: Track) -> bool:
-    """Whether a topic is the output of a node that also sends the edge `link`.
+    """Whether a node that sends the edge `link` also sends a topic's messages, as a result.
 
-    Such an output, for example the pose of a localiser, needs no lookup.
+    Such a result, for example the pose of a localiser, needs no lookup.
     """
     nodes = {one.node for one in model.evidence.publishers if one.topic == heard.topic}
     is_own = heard.frame == link.child and not heard.type.startswith("sensor_msgs/")

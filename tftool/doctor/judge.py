@@ -23,6 +23,7 @@ from tftool.doctor import mount_checks as mounts
 from tftool.doctor import name_checks as names
 from tftool.doctor import odometry_checks as odometry
 from tftool.doctor import outage_checks as outages
+from tftool.doctor import pose_checks as poses
 from tftool.doctor import publisher_checks as publishers
 from tftool.doctor import shape_checks as shape
 from tftool.doctor import stamp_checks as stamps
@@ -42,7 +43,7 @@ CHECKS: Mapping[str, Check] = {
     check.id: check
     for room in (
         *(publishers, shape, heard_names, names, clocks, laps, stamps),
-        *(gaps, outages, coverage, values, odometry, mounts, description),
+        *(gaps, outages, coverage, values, poses, odometry, mounts, description),
     )
     for check in room.check.checks
 }

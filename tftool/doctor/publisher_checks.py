@@ -21,6 +21,7 @@ from tftool.doctor.conflicts import (
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
 from tftool.doctor.missing_joins import ends_at_the_root
 from tftool.doctor.model import Limits, Model
+from tftool.doctor.pose_checks import with_placeholders
 from tftool.doctor.stamp_stream import JOINT_STATES, Track, family, rate
 
 check = checks_of(Area.PUBLISHERS)
@@ -103,7 +104,7 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
     "one value returns again and again. A warning if the publishers are unknown, if no frame "
     "is below this frame and no message is in it, or for a mount whose two values differ by "
     "less than {slight:g} m and {slight_degrees:g}°",
-    headline="{named} {many:has|have} two sources with different values{seen}",
+    headline="{named} {many:has|have} two {two:sources with |}different values{seen}",
     detail="{edge}: {first} and {second}, {told}, {apart:m} and {turned:deg} apart (median), "
     "{worst:m} and {most_turned:deg} at most",
     consequence="{named} {many:jumps|jump} back and forth, and so do all frames below",
@@ -144,7 +145,10 @@ def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
     """Two sources publish the same transform with different values."""
     told_of: dict[tuple[str, str], Hit] = {}
     apart: list[Track] = []
+    invalid = {track.edge for tracks in with_placeholders(model) for track in tracks}
     for track in model.dynamic:
+        if track.edge in invalid:
+            continue
         hit = named_conflict(model, track, limits) if model.has_named_publishers else None
         hit = hit or values_at_one_stamp(track, limits)
         if hit is None and not is_corrected(track, limits):
@@ -165,6 +169,8 @@ def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
         if sent_with is track:
             apart.append(track)
         group = f"{sent_with.name} {hit.facts['first']}"
+        if hit.facts["two"] == 0:
+            group = f"{track.parent} {track.nodes[0]}"
         told_of[track.edge] = replace(hit, alone=False, group=group)
     told_of = _folded(told_of)
     odometry = model.evidence.odometry
@@ -478,7 +484,7 @@ def parent_switch(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _by_child(tracks: Sequence[Track], least: int = 2) -> dict[str, list[Track]]:
-    """Return the edges to each child that has at least `least` parents, by the child's name."""
+    """Return the edges to each child frame with at least `least` parents, by the child's name."""
     grouped: dict[str, list[Track]] = defaultdict(list)
     for track in tracks:
         if len(track.by_stamp):

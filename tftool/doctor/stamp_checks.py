@@ -355,7 +355,13 @@ def _newest_before(tracks: list[Track]) -> tuple[Stamps, Stamps]:
 def out_of_order(model: Model, limits: Limits) -> Iterator[Hit]:
     """Samples arrive in another order than their stamps, within the cache time."""
     for track in model.dynamic:
-        count = unsorted_share(track.stamps)
+        topics = np.array([one.topic for one in model.evidence.transforms.publishers])
+        of_topic = (
+            [track.stamps[topics[track.senders] == topic] for topic in track.topics]
+            if len(track.topics) > 1
+            else [track.stamps]
+        )
+        count = sum(map(unsorted_share, of_topic))
         if count > limits["samples"] and count > limits["share"] * len(track.stamps):
             # A localiser sends a pose late if it computes the pose late.
             waited = (track.child,) if track.is_localisation else ()

@@ -196,7 +196,7 @@ class LookupTrace:
 
     @staticmethod
     def newest_before(stamps: Stamps) -> Stamp:
-        """Return the newest stamp, ignoring the last to arrive; for a single stamp, this stamp."""
+        """Return the newest stamp except the last to arrive; for a single stamp, this stamp."""
         return int(stamps[:-1].max(initial=stamps[0]))
 
     def way(self) -> list[Track] | None:

@@ -1,0 +1,101 @@
+"""Findings about poses that are sent although nothing was measured."""
+
+import math
+
+import pytest
+
+from tests.doctor.judged import found, ids, turned
+from tests.doctor.robots import NO_TURN, Pose, Robot, robot
+from tftool.doctor.findings import Confidence, Severity
+
+
+def detections(node: str = "/detector", invalid: Pose = (0.0, 0.0, 0.0, *NO_TURN)) -> Robot:
+    """Return two objects in the frame of a camera; two samples of three are invalid."""
+    made = Robot()
+    for tick in range(120):
+        for number, name in enumerate(("obj1", "obj2")):
+            pose = (0.7 + 0.001 * tick, 0.1 * number, -0.1, *NO_TURN)
+            made.sent("camera", name, 0.05 * tick, invalid if tick % 3 else pose, node=node)
+    return made
+
+
+def test_zeros_that_a_detector_sends_by_turns_with_poses_are_one_finding():
+    made = detections()
+    assert ids(made) == ["placeholder-pose"]
+    finding = found(made, "placeholder-pose")
+    assert finding.severity is Severity.WARNING
+    assert finding.edges == (("camera", "obj1"), ("camera", "obj2"))
+    assert finding.publishers == ("/detector",)
+    assert finding.count == 160
+    assert finding.message == (
+        "obj1, obj2 in camera are sent as exactly 0 0 0 in 66.7 % of their samples, by turns with "
+        "other poses"
+    )
+    assert finding.fixes[0].text.startswith("let /detector send nothing")
+
+
+def test_rare_zeros_of_a_detector_explain_its_jumps():
+    made = Robot()
+    for tick in range(400):
+        pose = (0.9, 0.001 * tick, -0.1, *NO_TURN)
+        rare = tick in (100, 200, 300)
+        made.sent("camera", "obj1", 0.05 * tick, (0.0, 0.0, 0.0, *NO_TURN) if rare else pose)
+    assert ids(made) == ["placeholder-pose"]
+    assert found(made, "teleport").because_of == "placeholder-pose"
+
+
+def test_odometry_that_is_reset_sends_no_placeholder():
+    made = Robot()
+    for tick in range(400):
+        # Each reset is one jump to the origin, and the robot drives on from there.
+        pose = (0.02 * (tick % 80), 0.0, 0.0, *NO_TURN)
+        made.sent("odom", "base_link", 0.05 * tick, pose, node="/base")
+    assert "placeholder-pose" not in ids(made, notes=True)
+
+
+def test_two_values_of_one_node_are_not_two_sources():
+    made = detections(invalid=(0.0, 0.0, 0.4, *NO_TURN))
+    finding = found(made, "publisher-conflict")
+    assert finding.message == (
+        "obj1 in camera, obj2 in camera have two different values, by turns, both sent by /detector"
+    )
+    assert not any("joint" in fix.text for fix in finding.fixes)
+
+
+def freezes(t: float) -> Pose:
+    """Return the pose of a moving body that motion capture loses from 3 s to 3.5 s."""
+    t = 3.0 if 3.0 <= t < 3.5 else t
+    return (0.5 * t, 0.01 * math.sin(20.0 * t), 1.7, *turned(0.1 * t))
+
+
+def test_a_pose_that_is_repeated_until_the_body_is_seen_again_is_told():
+    made = Robot()
+    made.moving("world", "hat", 16.0, freezes, node="/mocap")
+    assert ids(made) == ["frozen-pose"]
+    finding = found(made, "frozen-pose")
+    assert finding.confidence is Confidence.LIKELY
+    # From 3 s to the last sample before 3.5 s; then from the pose at 3 s to the pose at 3.5 s.
+    assert finding.message == (
+        "hat in world repeats its last pose for up to 438 ms, and jumps 0.25 m within 62.5 ms "
+        "after such a time"
+    )
+
+
+@pytest.mark.parametrize("far", [0.25, 3.0])
+def test_a_body_that_rests_and_is_then_placed_elsewhere_is_not_frozen(far):
+    def pose(t: float) -> Pose:
+        x = min(0.5 * t, 1.0) if t < 4.0 else 1.0 + far
+        return (x, 0.0, 0.0, *NO_TURN)
+
+    made = Robot()
+    made.moving("world", "turtle1", 16.0, pose)
+    assert "frozen-pose" not in ids(made, notes=True)
+
+
+def test_a_pose_on_two_topics_does_not_arrive_out_of_order():
+    made = robot()
+    for tick in range(100):
+        at = 0.05 * tick
+        made.sent("world", "hat", at + 0.001, (at, 0.0, 0.0, *NO_TURN), node="/mocap")
+        made.sent("world", "hat", at, (at, 0.0, 0.0, *NO_TURN), topic="/hat", node="/mocap")
+    assert "out-of-order" not in ids(made, notes=True)

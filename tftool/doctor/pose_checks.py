@@ -1,0 +1,178 @@
+"""Checks of poses that are sent although nothing was measured: a placeholder, or the last pose."""
+
+from collections import defaultdict
+from collections.abc import Iterator
+
+import numpy as np
+
+from tftool.base.stamps import NANOSECONDS
+from tftool.doctor.check import checks_of, hit_of
+from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
+from tftool.doctor.gap_checks import is_detection
+from tftool.doctor.model import Limits, Model
+from tftool.doctor.stamp_stream import Mask, Places, Track
+from tftool.doctor.wording import moment, several, span
+
+check = checks_of(Area.VALUES)
+
+
+@check(
+    "placeholder-pose",
+    Severity.WARNING,
+    rule="the pose of an object that a camera detects changes between exactly 0 0 0 without a "
+    "rotation, and poses more than 0.25 m away, within 0.5 s. All such objects with one parent and "
+    "one publisher together change to 0 0 0 and back 3 times or more",
+    headline="{named} {concerned:is|are} sent as exactly 0 0 0 in {share:%} of "
+    "{concerned:its|their} samples, by turns with other poses",
+    detail="{zeros} of {of} samples; the other poses are up to {away:m} from there",
+    consequence="an invalid value is sent as a pose: {named} {concerned:jumps|jump} to the origin "
+    "of {parent} and back",
+    fixes=(Fix("let {sender} send nothing where it has no valid measurement"),),
+    causes=("a detector without a depth at the place of the object",),
+)
+def placeholder_pose(model: Model, limits: Limits) -> Iterator[Hit]:
+    """A pose of zeros is sent by turns with real poses."""
+    for tracks in with_placeholders(model):
+        zeros = sum(int(np.count_nonzero(_is_zero(track))) for track in tracks)
+        of = sum(len(track.by_stamp) for track in tracks)
+        first = tracks[0]
+        children = [track.child for track in tracks]
+        yield hit_of(
+            first,
+            {
+                "named": f"{several(children, 3)} in {first.parent}",
+                "parent": first.parent,
+                "share": zeros / of,
+                "sender": ", ".join(first.nodes) or "the publisher",
+                "zeros": zeros,
+                "of": of,
+                "away": max(float(np.linalg.norm(t.translations, axis=1).max()) for t in tracks),
+            },
+            edges=tuple(track.edge for track in tracks),
+            since=min(int(track.logs[0]) for track in tracks),
+            count=zeros,
+            alone=True,
+        )
+
+
+def with_placeholders(model: Model) -> list[list[Track]]:
+    """Return the detections that are sent as zeros by turns, one list per parent and publisher."""
+    groups: dict[tuple[str, int], list[Track]] = defaultdict(list)
+    changes: dict[tuple[str, int], int] = defaultdict(int)
+    for track in model.dynamic:
+        if len(track.publishers) != 1 or len(track.by_stamp) < 2:
+            continue
+        zero = _is_zero(track)
+        if not zero.any() or not is_detection(model, track):
+            continue
+        key = track.parent, int(track.senders[0])
+        groups[key].append(track)
+        near = np.diff(track.sorted_stamps) < _SOON
+        far = near & (track.strides > _FAR)
+        changes[key] += min(
+            int(np.count_nonzero(far & zero[1:] & ~zero[:-1])),
+            int(np.count_nonzero(far & zero[:-1] & ~zero[1:])),
+        )
+    return [tracks for key, tracks in groups.items() if changes[key] >= _CHANGES]
+
+
+_FAR = 0.25
+"""Minimum distance, metres, of a real pose from a placeholder of zeros."""
+
+_SOON = NANOSECONDS // 2
+"""Maximum time, nanoseconds, between a placeholder and a real pose."""
+
+_CHANGES = 3
+"""Minimum number of changes to the placeholder, and back."""
+
+
+def _is_zero(track: Track) -> Mask:
+    """Return a mask of the usable samples with exactly no translation and no rotation."""
+    places = track.by_stamp
+    numbers = np.hstack((track.translations[places], track.rotations[places, :3]))
+    return np.asarray(~numbers.any(axis=1))
+
+
+@check(
+    "frozen-pose",
+    Severity.WARNING,
+    rule="a publisher repeats one pose of a moving frame exactly, with new stamps, for "
+    "{seconds:g} s or more and {repeats:g} times or more. Then the frame jumps by {metres:g} m or "
+    "more, at {times:g} times the 95 % quantile of its speeds or more. Its usual speed explains "
+    "the distance of the jump in the time since the pose froze, and the frame moved before and "
+    "after",
+    headline="{where} {concerned:repeats its|repeat their} last pose for up to {longest:span}, "
+    "and {concerned:jumps|jump} {jump:m} within {within:span} after such a time",
+    detail="{edge}: the same pose {stretches}; the jump is at {at:moment}; usually at most "
+    "{usual:.2g} m/s",
+    consequence="while the pose is frozen, lookups return an old pose under a new stamp",
+    fixes=(Fix("let the publisher send nothing while it has no new measurement"),),
+    causes=("a motion capture that lost its object and sends the last pose",),
+    limits={"seconds": 0.25, "repeats": 4, "metres": 0.1, "times": 3.0},
+)
+def frozen_pose(model: Model, limits: Limits) -> Iterator[Hit]:
+    """A publisher repeats the last pose of a frame that moves meanwhile."""
+    for track in model.dynamic:
+        if track.is_localisation:
+            continue
+        senders = track.senders[track.by_stamp]
+        for sender in np.unique(senders).tolist():
+            hit = _frozen(track, track.by_stamp[senders == sender], limits)
+            if hit is not None:
+                yield hit
+                break
+
+
+def _frozen(track: Track, places: Places, limits: Limits) -> Hit | None:
+    """Return a hit if one publisher's poses freeze and then jump; else None.
+
+    Args:
+        track: The edge.
+        places: Indices of the publisher's samples, sorted by stamp, shape (n,).
+        limits: Thresholds of `frozen-pose`.
+    """
+    strides = track.apart(places[1:], places[:-1])
+    if not (strides >= limits["metres"]).any():
+        return None
+    stamps = track.stamps[places]
+    turned = (track.rotations[places[1:]] != track.rotations[places[:-1]]).any(axis=1)
+    moves = np.flatnonzero((strides > 0.0) | turned)
+    speeds = strides[moves] / np.maximum(np.diff(stamps)[moves] / NANOSECONDS, 1e-3)
+    usual = float(np.percentile(speeds, 95))
+    # Between two moves, the pose is frozen.
+    froze, ends = moves[:-1] + 1, moves[1:]
+    lasts = (stamps[ends] - stamps[froze]) / NANOSECONDS
+    rests = (ends - froze >= limits["repeats"]) & (lasts >= limits["seconds"])
+    since = (stamps[ends + 1] - stamps[froze]) / NANOSECONDS
+    slow = _SLOW * usual
+    jumps = rests & (strides[ends] >= limits["metres"]) & (speeds[1:] >= limits["times"] * usual)
+    jumps &= (strides[ends] <= usual * since) & (speeds[:-1] >= slow)
+    jumps &= np.append(speeds[2:] >= slow, False)
+    if not jumps.any():
+        return None
+    worst = int(np.flatnonzero(jumps)[strides[ends][jumps].argmax()])
+    shown = np.flatnonzero(rests)
+    return hit_of(
+        track,
+        {
+            "jump": float(strides[ends[worst]]),
+            "within": int(stamps[ends[worst] + 1] - stamps[ends[worst]]),
+            "at": int(stamps[ends[worst] + 1]),
+            "longest": int(lasts[rests].max() * NANOSECONDS),
+            "stretches": several(
+                [
+                    f"for {span(lasts[one] * NANOSECONDS)} from {moment(int(stamps[froze[one]]))}"
+                    for one in shown.tolist()
+                ]
+            ),
+            "usual": usual,
+        },
+        since=int(track.logs[places[froze[shown[0]]]]),
+        until=int(track.logs[places[ends[shown[-1]]]]),
+        count=len(shown),
+        confidence=Confidence.LIKELY,
+    )
+
+
+_SLOW = 0.1
+"""Fraction of the usual speed below which a frame may be at rest."""
