@@ -253,8 +253,8 @@ class Questions:
         With the leading "./", a file name such as "--help" is not parsed as an option.
 
         Raises:
-            InputError: If the file, or a link in it, is outside the root, or files of that type are
-                not read here.
+            InputError: If `source`, or a file read with it, is outside the root; or if `source` is
+                missing, is xacro or is a scenario.
         """
         try:
             path = (self._root / source).resolve(strict=True)

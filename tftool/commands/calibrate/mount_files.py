@@ -134,12 +134,12 @@ def write_mount(
 
 
 def joint_to_change(output: Path, published: PublishedMount, name: str | None) -> RobotJoint | None:
-    """Return the joint called `name`; without a name, the first fixed joint to the sensor's frame.
+    """Return the joint `name`; without a name, the first fixed joint from the parent to the sensor.
 
     Return None if no joint matches and `output` is not a description.
 
     Raises:
-        UsageError: If the description has no such joint, or the joint is not between the frames.
+        UsageError: If no such joint is between the frames, or there is no description for `name`.
     """
     chosen = _joint(published, name)
     if chosen is None and output.suffix == ".urdf":

@@ -59,10 +59,10 @@ def _unfolded(word: str) -> list[str]:
 def _judge(
     word: str, judge: Callable[..., Verdict], kept: "_Kept | None", *, own_nodes: bool
 ) -> "tuple[Report, bool]":
-    """Judge one scenario, and collect its warnings and the doctor's findings in a report.
+    """Judge one scenario; return a report, and False if the scenario file could not be read.
 
-    Returns:
-        The report, and False if the scenario file could not be read.
+    The report has warnings and, for a failure, the doctor's findings. `own_nodes` says whether
+    nodes of the scenario run; only then, contradictions between their edges become warnings.
     """
     try:
         scenario = scenario_named(word)
@@ -156,7 +156,7 @@ class _Kept:
         self._names: set[str] = set()
 
     def place(self, name: str) -> Path:
-        """Return the path for a scenario's recording, with a number after a name that is used."""
+        """Return a new path for a scenario's recording; append a number if the name was used."""
         plain = free = re.sub(r"[^0-9A-Za-z_-]", "_", name)
         number = 1
         while free in self._names:

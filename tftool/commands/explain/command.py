@@ -1,4 +1,4 @@
-"""Implementation of `tftool explain`: by joints for a description, else by edges over time."""
+"""Implementation of `tftool explain`: why a lookup succeeds or fails, by joints or by edges."""
 
 from typing import TYPE_CHECKING, Any
 

@@ -368,7 +368,7 @@ def _failure(error: Exception) -> str:
 
     Raises:
         UsageError: If tftool is not installed on the cluster's workers.
-        InputError: If the connection to the cluster is lost, which no recording caused.
+        InputError: If the connection to the cluster is lost while recordings are processed.
     """
     if isinstance(error, ModuleNotFoundError) and (error.name or "").startswith("tftool"):
         raise UsageError(

@@ -60,7 +60,7 @@ class RowFile:
         Args:
             path: Path of the file, whose suffix selects the format: .jsonl, .csv or .parquet.
             columns: Names and types of the columns.
-            judged: Names of the columns of existing rows that `earlier` returns.
+            judged: Names of the columns that `earlier` returns for existing rows.
             resume: Whether to keep existing rows and append new rows.
 
         Raises:

@@ -77,7 +77,7 @@ class Workers:
 
     Attributes:
         count: Number of recordings processed at the same time.
-        window: Number of recordings submitted at the same time.
+        window: Number of recordings submitted to the executor, both running and waiting.
         open: Function that returns an executor; called again after a failure of the executor.
         is_remote: Whether recordings need absolute paths, on a file system that all workers share.
     """

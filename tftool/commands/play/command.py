@@ -45,7 +45,7 @@ MOST_MARKS = 200
 
 
 def _refuse_to_mix(link: Link) -> None:
-    """Raise UsageError if other nodes publish transforms, which the recording's would mix with."""
+    """Raise UsageError if /tf has publishers: their transforms would mix with the recording's."""
     nodes = sorted({one.node for one in link.graph.entities(PUBLISHER, name="tf")})
     if nodes:
         some = ", ".join(f"'{visible(node)}'" for node in nodes[:3])

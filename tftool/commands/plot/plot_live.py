@@ -157,7 +157,7 @@ def _newest(
     first, now = sight.span(world.clock.now())
 
     def arrived(target: str, source: str) -> Stamp:
-        """Return the last time with a known pose; samples of the last moments may still arrive."""
+        """Return the last time to draw: the newest common stamp if recent, else the present."""
         newest = world.buffer.newest_common(target, source)
         return newest if now - ON_ITS_WAY < newest < now else now
 

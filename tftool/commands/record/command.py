@@ -48,7 +48,7 @@ _ERASE: Final = "\r\x1b[K"
 
 
 class RecordingRun:
-    """Loop that writes a recorder's messages to a file until time, finding or user end the loop."""
+    """Loop that writes messages to a file until a duration, a finding or the user ends the loop."""
 
     def __init__(
         self,

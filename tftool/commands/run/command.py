@@ -109,10 +109,10 @@ def _own_words(words: Sequence[str]) -> list[str]:
 def _run_other(
     connection: Connection, target: str, words: list[str], *, refused: bool
 ) -> int | None:
-    """Run the tftool command that replaces a known ROS program; return None for other programs.
+    """Run the command that replaces a known ROS program, and return its status; else return None.
 
     Raises:
-        UsageError: If the program is known, and `refused` is set: options for nodes were given.
+        UsageError: If the program is known, and `refused` says that options for nodes were given.
     """
     if (target, *words[:1]) == KEYBOARD:
         if refused:

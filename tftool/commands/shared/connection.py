@@ -234,7 +234,7 @@ class Connection:
             )
 
     def refuse_read_only(self, purpose: str) -> None:
-        """Raise UsageError for --read-only if the only purpose of the command is to publish."""
+        """Raise UsageError if --read-only was given; `purpose` is a verb such as "drive"."""
         if self.read_only:
             raise UsageError(
                 f"--read-only publishes nothing, but the only purpose of {self.command} is to "

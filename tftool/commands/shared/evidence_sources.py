@@ -37,7 +37,7 @@ def evidence_from(
 
     Args:
         connection: Connection of the command.
-        word: FROM as typed; None for the running session, or else the turtle world.
+        word: FROM as typed; None for the running session or, if none runs, the turtle world.
         lasting: Nanoseconds to listen; None for the default.
         scope: Part of a recording to examine.
         look: Function that returns lines about the findings while a session is listened to.

@@ -146,7 +146,7 @@ def open_session(
         connection: Connection of the command.
         word: FROM as typed: the name of the scenario to host; None to join the running session.
         simulated: Whether a hosted world uses simulated time, from its beginning on.
-        head_start: Part of a scenario that is simulated at once before the wall clock starts.
+        head_start: Nanoseconds of a scenario that are simulated before the wall clock starts.
         cache_time: Cache time of the world's buffer, in place of the scenario's.
         without: Function that decides whether a node of a hosted scenario is omitted.
         needs_turtles: Whether to join only a session with a turtle simulator.
@@ -340,6 +340,6 @@ def _open_link(connection: Connection) -> tuple["Link | None", str]:
 
 
 def _has_host(link: "Link") -> bool:
-    """Return whether tftool hosts the session, or a turtle simulator of ROS runs in it."""
+    """Return whether the session has a tftool process as host, or a turtle simulator of ROS."""
     # A host that has just started has no turtles yet, but will have some.
     return bool(hosts(link.graph.processes()) or link.graph.entities(SERVER, name="spawn"))

@@ -152,7 +152,7 @@ def keyboard(pressed: Callable[[str], object]) -> Iterator[bool]:
 
 
 def termios_error() -> type[BaseException]:
-    """Return the exception type of failed terminal settings; without termios, an unused type."""
+    """Return the exception type of failed terminal settings; OSError if termios is missing."""
     try:
         import termios
     except ImportError:

@@ -223,7 +223,7 @@ async def _show(
 
 
 async def _until_one_ends(*work: Coroutine[Any, Any, None]) -> None:
-    """Run coroutines concurrently until one of them ends, then cancel the rest."""
+    """Run coroutines concurrently until the first ends, then cancel the other coroutines."""
     tasks = [asyncio.ensure_future(one) for one in work]
     try:
         ended, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
