@@ -51,7 +51,7 @@ class Limits:
     Attributes:
         points: Largest number of points of one message.
         all_points: Largest number of points of all messages of a topic; above this number, only
-            every second or third message is drawn.
+            every second, third, … message is drawn.
     """
 
     points: int = MOST_POINTS
@@ -334,7 +334,7 @@ class LiveDisplays:
             del self._heard[topic]
 
     def _is_due(self, one: _HeardTopic) -> bool:
-        """Return whether a topic has new data for the page; first place the waiting shapes."""
+        """Process a topic's new messages; return whether the page must get new shapes or faults."""
         self._draw(one)
         if one.waiting is not None:
             one.rounds += 1

@@ -76,7 +76,7 @@ class PackedBlock:
 
         Args:
             numbers: Integers, shape (n,).
-            step: Value of 1 for the reader, for example 0.001 for millimetres.
+            step: Factor from integers to values, for example 0.001 from millimetres to metres.
         """
         if len(numbers) and (numbers == numbers[0]).all():
             return {"value": float(numbers[0]) * step}

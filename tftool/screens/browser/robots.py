@@ -33,8 +33,8 @@ class ShownRobot:
         robot: Description of the robot.
         folders: Folders of the robot's meshes.
         mover: Node of this process that moves the joints; None without such a node.
-        prefix: Prefix of the frame names before the names of the robot's links.
-        rest: First joint positions if the page moves the joints without a node; None if a node
+        prefix: Text before the link's name in the name of each frame of the robot.
+        rest: Initial joint positions if the page moves the joints without a node; None if a node
             publishes joint positions.
     """
 
@@ -45,7 +45,7 @@ class ShownRobot:
     rest: Mapping[str, float] | None = None
 
     def place(self, frames: Collection[str]) -> bool:
-        """Find the prefix of the robot's names in `frames`; return whether the prefix changed."""
+        """Find the robot's prefix in the frame names `frames`; return whether it has changed."""
         prefix = prefix_of(self.robot, frames)
         changed = prefix != self.prefix
         self.prefix = prefix

@@ -192,7 +192,7 @@ class FrameTrails:
         Args:
             fixed: Fixed frame; if the fixed frame changes, all trails start again.
             frames: Frames with trails; only the first `MOST_FRAMES` are used.
-            now: Last time, nanoseconds.
+            now: Time of the newest position to add, nanoseconds.
         """
         if fixed != self.fixed or now < self._next - 4 * PERIOD:
             self.fixed, self._ways, self._next = fixed, {}, 0

@@ -185,9 +185,9 @@ def pair(moment: SceneMoment, width: int, height: int, look: Look) -> list[Text]
 
 
 def stopped_for(moment: SceneMoment) -> float:
-    """Return the seconds since the last sample of an edge of the shown pair that has stopped.
+    """Return the seconds since the last sample of a stopped edge between the shown frames.
 
-    Returns 0 if samples of all edges still arrive.
+    Returns the maximum if several edges have stopped, and 0 if no edge has stopped.
     """
     frames = {info.frame: info for info in moment.snapshot.frames}
     chains: list[set[str]] = []

@@ -15,11 +15,11 @@ class SceneQuestion:
 
     Args:
         scene: Scene in which the pair is looked up.
-        pair: First target and source.
+        pair: Initial target and source frame.
 
     Attributes:
         target: Frame in which the pose is expressed.
-        source: Frame whose pose is shown, the one under the cursor.
+        source: Frame under the cursor, whose pose is shown.
         at: Time to show; None for the present.
         fixed: Frame in which the picture is drawn; "" for the root of the pair's tree.
         moment: Last state that was looked up; None before the first lookup.
@@ -40,7 +40,7 @@ class SceneQuestion:
         return self.moment
 
     def wait(self, moment: SceneMoment) -> SceneMoment:
-        """Return the past state `moment` again, with the current distance to the present."""
+        """Return the past state `moment`, with `behind` updated to the present time."""
         now = self.scene.world.clock.now()
         self.moment = replace(moment, behind=now - moment.stamp)
         return self.moment

@@ -116,7 +116,7 @@ class _SeenTurtle(NamedTuple):
 class _Seen:
     """Stored state of the simulator at the time `stamp`.
 
-    `drawn` is the number of strokes drawn so far, `wipes` how often the drawing was cleared.
+    `drawn` counts the strokes drawn so far; `wipes` counts how often the drawing was cleared.
     """
 
     stamp: Stamp
@@ -401,7 +401,7 @@ class Scene:
 def _inked(strokes: Sequence[Stroke], turtles: Sequence[_SeenTurtle]) -> list[Stroke]:
     """Return strokes in the colour of the turtle that has drawn each stroke.
 
-    Only strokes in the colour of a new pen are changed.
+    Only strokes in the simulator's default pen colour are changed.
 
     Args:
         strokes: The newest strokes, oldest first; the last stroke of a turtle ends at the turtle.

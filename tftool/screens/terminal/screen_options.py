@@ -13,7 +13,7 @@ class Setting:
 
     Attributes:
         title: Title for the top line.
-        pair: First target and source; in `tftool teleop`, the source is the driven turtle.
+        pair: Initial target and source; in `tftool teleop`, the source is the driven turtle.
         ascii_only: Whether to draw with ASCII only.
         colors: Whether colours may be used.
         light: Whether the terminal's background is light.

@@ -38,7 +38,7 @@ def space_picture(moment: SceneMoment, solids: Solids | None = None) -> SpacePic
 def opens_in_space(moment: SceneMoment) -> bool:
     """Return whether a scene is better shown in 3-D than from above.
 
-    This is so for static frames that differ mostly in height.
+    A scene of static frames that differ mostly in height is better shown in 3-D.
     """
     moves = any(not info.is_static and info.parent for info in moment.snapshot.frames)
     if moves or moment.picture.field is not None:

@@ -40,7 +40,7 @@ def wrapped(
         words: The sentence, in which control characters are replaced.
         width: Longest line in cells.
         style: Style of the text.
-        first: Longest first line in cells, if different.
+        first: Largest width of the first line in cells; None for `width`.
     """
     width = max(1, width)
     lines: list[str] = []

@@ -127,7 +127,7 @@ class TrafficWatch(PanelApp):
     def _names_senders(self, links: list[FrameTraffic]) -> bool:
         """Return whether the panel of frames already names all publishers.
 
-        This is so if each publisher has one frame, and there is room for the names.
+        The panel does so if each publisher has one frame, and the names fit.
         """
         has_room = WITH_SCALE * len(links) <= self.size.height - 5
         return has_room and sorted(one.sender for one in links) == sorted(self._traffic.senders)

@@ -477,7 +477,7 @@ class TurtleApp(PanelApp):
             self.redraw()
 
     def action_measure(self) -> None:
-        """Make the frame under the cursor the target; in the list of scenarios, choose one."""
+        """Make the frame under the cursor the target; in the scenario list, choose the scenario."""
         if self.panel("scenarios").display:
             self.chosen = self._offered[self._offer][0]
             self.exit()
