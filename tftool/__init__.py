@@ -32,9 +32,9 @@ Recordings and robots:
     JointStates                     positions of joints over time
     export                          write transforms to files of other tools
     Exported                        the files that export has written
-    plot                            draw the transform of a pair of frames over time, or poses
+    plot                            draw a transform over time, or series of poses
     view                            show frames in 3-D in the browser
-    PageView                        the page of view, to show or to save
+    PageView                        result of view: a page to show or to save
 
 Questions:
 
@@ -70,7 +70,7 @@ Errors:
     ExtrapolationException          the requested time is outside the samples
     BackwardExtrapolationException  the requested time is before the first sample
     ForwardExtrapolationException   the requested time is after the last sample
-    NoDataForExtrapolationException an edge has no sample, or only one at another time
+    NoDataForExtrapolationException an edge has no sample, or a single sample at another time
     InvalidArgumentException        an argument of a lookup, or a sample, is invalid
     TimeoutException                a transform did not arrive in time
     InputError                      a file or text cannot be read

@@ -73,7 +73,7 @@ def open_frames(
     Args:
         place: Source of the frames: name, path or address; None for the running session.
         listen_for: Seconds to listen to a session.
-        until: Time up to which a scenario is played, seconds; None for 5 s, infinity to the end.
+        until: Last scenario time to play, seconds; infinity for the whole scenario, None for 5 s.
         margin: Further seconds to play after `until`, because transforms arrive after their stamp.
         cache_time: Cache time of a scenario's or session's buffer, nanoseconds; None for no limit.
         joints: Positions of a description's joints, radians or metres.
@@ -84,7 +84,7 @@ def open_frames(
         tf_topics: Topics whose transforms are read; all if empty. See `open_recording`.
         frames: Names of parent and child in a pose file: "odom:base_link".
         pose_rate: Poses per second, for a pose file without stamps.
-        pose_format: Format of a pose file; None to detect it.
+        pose_format: Format of a pose file; None to detect the format.
         inverted: Whether to invert each pose of a pose file.
         axes: Axes of the cameras in a pose file: "opencv" or "opengl".
         domain: Number of the session's ROS domain; None for ROS_DOMAIN_ID, or else 0.

@@ -113,7 +113,7 @@ def offers(words: Sequence[str]) -> list[Offer]:
 
 
 def _is_plain(word: str, current: str) -> bool:
-    """Return whether to offer `word`: an option only after a typed dash, others only without."""
+    """Return whether to offer `word`: options only after a typed dash, other words without it."""
     return word.startswith("-") == current.startswith("-")
 
 
@@ -214,7 +214,7 @@ def _frames(before: Sequence[str]) -> list[str]:
 
 
 def _words_behind() -> list[str]:
-    """Return the words after the word being typed, among which FROM often is."""
+    """Return the words after the word being typed, which often include FROM."""
     return os.environ.get(BEHIND, "").split("\n")
 
 

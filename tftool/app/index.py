@@ -126,7 +126,7 @@ def _rows(rows: list[tuple[str, str]], width: int) -> Iterator[str]:
 
 
 def show_help(text: str) -> None:
-    """Print a help text; on a terminal in colour, and through a pager if the text is long."""
+    """Print a help text; on a terminal, use colours, and show a long text in a pager."""
     if sys.stdout.isatty() and os.environ.get("TERM") != "dumb":
         is_long = text.count("\n") + 2 > shutil.get_terminal_size().lines
         if not os.environ.get("NO_COLOR"):

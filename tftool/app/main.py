@@ -58,7 +58,7 @@ def main(argv: "Sequence[str] | None" = None, providers: "Providers | None" = No
 
     Args:
         argv: Words after `tftool`; None for this process's arguments.
-        providers: Functions that create clocks and connections to processes; only tests pass them.
+        providers: Functions that create clocks and connections to processes; None except in tests.
 
     Returns:
         An `ExitStatus`, or the exit status of the program that `tftool run` ran.
