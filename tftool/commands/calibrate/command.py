@@ -282,7 +282,7 @@ Chain = tuple[Frames, str]
 
 
 def _chains(opened: list[Frames], words: list[str]) -> list[Chain]:
-    """Find the file for each motion: the file that has the frames named by a value of --moving.
+    """Return the file and the --moving value of each motion; the value is "" if none was given.
 
     Args:
         opened: One or two opened files.

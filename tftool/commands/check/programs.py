@@ -63,7 +63,7 @@ def judge_with(
 
 
 def _entrant(text: str) -> Entrant:
-    """Parse [NODE=]WORDS, a value of --run: the program, and the node that the program replaces."""
+    """Parse [NODE=]WORDS, a value of --run; return the program with the node that it replaces."""
     match = _IN_PLACE.fullmatch(text)
     node, rest = (match[1], match[2]) if match else ("", text)
     return Entrant(_words("--run", rest), node)
