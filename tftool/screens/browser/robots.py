@@ -45,7 +45,7 @@ class ShownRobot:
     rest: Mapping[str, float] | None = None
 
     def place(self, frames: Collection[str]) -> bool:
-        """Find the robot's prefix in the frame names `frames`; return whether it has changed."""
+        """Set `prefix` from the frame names `frames`; return whether the prefix has changed."""
         prefix = prefix_of(self.robot, frames)
         changed = prefix != self.prefix
         self.prefix = prefix

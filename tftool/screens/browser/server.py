@@ -409,7 +409,7 @@ class PageServer:
     async def _standalone(self, connection: ServerConnection, query: str) -> Response:
         """Return a page that contains the whole buffer and needs no server.
 
-        One such file is written at a time; if the client or the server closes, the writing ends.
+        Only one page is written at a time; the writing ends when the client or the server closes.
         """
         if self._writing is not None:
             return _refuse(

@@ -310,7 +310,7 @@ def scenarios(
 
 
 def description_lines(offered: Sequence[tuple[str, str]], width: int) -> int:
-    """Return how many lines below the list of scenarios are needed for a whole description.
+    """Return how many lines the longest cut description needs below the list of scenarios.
 
     Returns 0 if every description fits into its line.
 

@@ -426,7 +426,7 @@ def _sides(x: float, y: float) -> list[str]:
 
 
 def _frameless(turtle: _SeenTurtle, pose: Transform) -> PlaneFrame:
-    """Return a turtle that has no frame as an element of the picture.
+    """Return the picture's element for a turtle without a frame.
 
     Args:
         turtle: Position of the turtle in the simulator.

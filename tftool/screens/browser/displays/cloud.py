@@ -16,7 +16,7 @@ def draw(message: Any, arrival: Arrival) -> DrawnMessage:
     """Return the cloud's points, as points to draw.
 
     Raises:
-        InputError: If the cloud has no x, y and z in floats, or fewer bytes than stated.
+        InputError: If x, y and z are not floats, or bytes are missing for the width and height.
     """
     fields = {field.name: field for field in message.fields}
     order = ">" if message.is_bigendian else "<"
