@@ -98,7 +98,7 @@ LINES: Final = {
 
 
 def with_blanks(node: str, text: str) -> str:
-    """Turn a node's source into an exercise: replace each key assignment by a TODO.
+    """Turn a node's source into an exercise: replace the assignments to be written by TODOs.
 
     Args:
         node: Name of the node, which selects the assignments.

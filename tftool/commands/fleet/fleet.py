@@ -458,7 +458,7 @@ def told(counts: dict[str, int]) -> str:
 
 
 def announce(counts: dict[str, int], earlier: dict[str, int], output: Path) -> None:
-    """Print how many recordings were processed now, and how many had rows in the file `earlier`."""
+    """Print the outcomes of recordings processed now (`counts`) and before (`earlier`)."""
     total = sum(counts.values())
     passed = sum(earlier.values())
     over = f" ({passed:,} were in the file already: {told(earlier)})" if passed else ""

@@ -25,7 +25,7 @@ SETTLE = seconds(0.5)
 def _tell(record: LogRecord) -> None:
     """Print a log record of the follower node, or a warning or error of another node.
 
-    Records of the node "link" are omitted: the session prints such warnings itself.
+    Records of the node "link" are omitted: the session prints the node's warnings itself.
     """
     if record.node == NAME or (record.level in PROBLEMS and record.node != "link"):
         tell_record(record)

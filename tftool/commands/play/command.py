@@ -173,7 +173,7 @@ def _feed(recording: Recording, timeline: Timeline, link: Link | None) -> TopicF
 def _findings_and_topics(
     recording: Recording, timeline: Timeline, start: Stamp
 ) -> tuple[list[PlaybackMark], list[PlayedTopic]]:
-    """Return the marks of the doctor's findings for the timeline, and the topics.
+    """Return timeline marks for the doctor's findings, and the topics to show.
 
     The worst findings come first. A very long recording is not judged and gets no marks.
     """
