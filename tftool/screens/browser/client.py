@@ -45,7 +45,7 @@ class TreeMessage:
     """Message with the names of all shown frames, for one state of the tree.
 
     Attributes:
-        revision: Number of the tree's state.
+        revision: Number that identifies this state of the tree.
         text: The message as JSON.
         shown: Indices of the shown frames in the snapshot.
     """

@@ -242,5 +242,5 @@ def _finite(values: Iterable[float]) -> list[float | None]:
 
 
 def names_key(frames: Sequence[FrameInfo]) -> tuple[tuple[str, str | None, bool, str | None], ...]:
-    """Return a key that differs whenever the message of `encode_names` would differ."""
+    """Return a key that changes whenever the message of `encode_names` changes."""
     return tuple((frame.frame, frame.parent, frame.is_static, frame.authority) for frame in frames)

@@ -233,7 +233,7 @@ class Scene:
         )
 
     def newest(self, target: str, source: str) -> Stamp | None:
-        """Return the newest time of a pair's transform; None if static or not connected."""
+        """Return the newest time of a pair's transform; None for static or unconnected pairs."""
         try:
             return self.world.buffer.get_latest_common_time(target, source) or None
         except TransformException:
