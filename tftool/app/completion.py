@@ -262,7 +262,7 @@ def _read_frames(word: str) -> list[str]:
 
 
 def _workspace_here() -> "Workspace":
-    """Return the workspace around the current folder, which knows the packages."""
+    """Return the workspace around the current folder, for looking up ROS packages."""
     from tftool.ros.host.workspace import Workspace
 
     return Workspace(Path.cwd())
