@@ -253,7 +253,7 @@ def _block(
 
 
 def _words(link: FrameTraffic, layout: TrafficLayout, *, is_late: bool = False) -> list[str]:
-    """Return three texts about an edge: a health sign and the frame, the parent, the publisher."""
+    """Return the texts of an edge: its frame after a health sign, its parent, its publisher."""
     sign = ("!" if is_late else "+") if layout.ascii_only else "●"
     return [
         f"{' ' if link.is_static else sign} {visible(link.frame)}",

@@ -49,7 +49,8 @@ class PieceLength:
         size = float(found[1]) if found is not None else 0.0
         if size <= 0.0 or (unit == "frames" and size != int(size)):
             raise UsageError(
-                f"--per must be frames, metres or degrees (1, 10m, 5deg), not '{text}'."
+                "--per must be a number of poses, metres or degrees, such as 1, 10m or 5deg, "
+                f"not '{text}'."
             )
         return cls(size, unit)  # type: ignore[arg-type]
 

@@ -354,7 +354,8 @@ class _Planner:
         if field.kind == "wstring":
             raise MalformedMessage(
                 self._name,
-                f"field '{field.name}' is a wstring, whose bytes differ between releases",
+                f"field '{field.name}' is a wstring, which cannot be read, because releases of "
+                "ROS 2 encode it differently",
             )
         if field.kind == "bool":
             return "?"

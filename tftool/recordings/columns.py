@@ -289,7 +289,7 @@ class Table:
         return MOST_EDGES - len(self._edges)
 
     def make_room(self, edge: Growing, message: int) -> None:
-        """Add a row for one more transform of an edge, in the message with the number `message`."""
+        """Add a row for one more transform of an edge; `message` is the number of its message."""
         self._freely -= edge.make_room(1, self.share(message + 1), max(self._freely, 0))
 
     def leave_out(self, count: int) -> None:

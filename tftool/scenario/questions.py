@@ -222,7 +222,7 @@ class Bearing(Between):
     """Question for the direction from frame `start` to the origin of frame `end`."""
 
     def answer(self, scene: ScenarioWorld) -> float:
-        """Return the direction in radians from the x axis of `start`, counter-clockwise."""
+        """Return the angle to `end` in radians, counter-clockwise from the x axis of `start`."""
         return rigid.bearing(self.lookup.answer(scene))
 
     def __str__(self) -> str:

@@ -33,7 +33,7 @@ class Node(Resident):
         world: World that the node belongs to.
         name: Name in logs, also the authority of the node's transforms.
         rank: Number of the node in the order of joining the world.
-        phase: Phase in which the clock wakes the node within an instant.
+        phase: Phase in which the clock wakes the node, if several nodes are due at the same time.
     """
 
     phase: ClassVar[Phase] = Phase.CONSUME

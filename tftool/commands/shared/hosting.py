@@ -144,18 +144,19 @@ def open_session(
 
     Args:
         connection: Connection of the command.
-        word: FROM as typed: the name of the scenario to host; None to join the running session.
+        word: FROM as typed: the name of the scenario to host; None to join the running session, or
+            to host the scenario `turtles` if there is no session.
         simulated: Whether a hosted world uses simulated time, from its beginning on.
         head_start: Nanoseconds of a scenario that are simulated before the wall clock starts.
         cache_time: Cache time of the world's buffer, in place of the scenario's.
         without: Function that decides whether a node of a hosted scenario is omitted.
         needs_turtles: Whether to join only a session with a turtle simulator.
-        because: Reason to print if a default world is hosted.
+        because: Reason to print if the scenario `turtles` is hosted for lack of a session.
         by_hand: Whether a person drives, in place of the scenario's script.
 
     Raises:
         InputError: If the word names no scenario, or the scenario cannot be read.
-        LinkError: If a session was requested, but no session runs.
+        LinkError: If an option such as --join requires a running session, but none runs.
         UsageError: If options such as --join are given with simulated time, which cannot be shared.
     """
     _refuse_files(word)
@@ -263,7 +264,7 @@ def open_own_session(connection: Connection, *, simulated: bool, because: str) -
         because: Reason to print if a world is hosted.
 
     Raises:
-        LinkError: If a session was requested, but no session runs.
+        LinkError: If an option such as --join requires a running session, but none runs.
         UsageError: If options such as --join are given with simulated time, which cannot be shared.
     """
     refuse_options_of_files(connection.robot, connection.recording, None)

@@ -22,7 +22,7 @@ class SceneQuestion:
         source: Frame under the cursor, whose pose is shown.
         at: Time to show; None for the present.
         fixed: Frame in which the picture is drawn; "" for the root of the pair's tree.
-        moment: Last state that was looked up; None before the first lookup.
+        moment: Poses of the last lookup of the scene; None before the first lookup.
     """
 
     def __init__(self, scene: Scene, pair: tuple[str, str]) -> None:

@@ -399,9 +399,7 @@ class Scene:
 
 
 def _inked(strokes: Sequence[Stroke], turtles: Sequence[_SeenTurtle]) -> list[Stroke]:
-    """Return strokes in the colour of the turtle that has drawn each stroke.
-
-    Only strokes in the simulator's default pen colour are changed.
+    """Return strokes, those in the simulator's default pen colour in the colour of their turtle.
 
     Args:
         strokes: The newest strokes, oldest first; the last stroke of a turtle ends at the turtle.

@@ -151,7 +151,9 @@ class Recorder:
                 if name not in self._names:
                     self._inner.add(name)
                     return
-                raise InputError("values of this type cannot be sent to other processes")
+                raise InputError(
+                    "its values are no ROS messages, so other processes cannot receive them"
+                )
             channel = self._channel(name, topic.kind.interface__, "")
             writer = codec(topic.kind)
         except InputError as error:

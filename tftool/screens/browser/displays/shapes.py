@@ -82,7 +82,7 @@ class DrawnMessage:
 
     @property
     def count(self) -> int:
-        """Number of positions of all shapes."""
+        """Total number of places at which the shapes are drawn."""
         return sum(len(shape.places) for shape in self.shapes)
 
     def thinned(self, most: int) -> "DrawnMessage":

@@ -146,10 +146,10 @@ def _confined(variables: Mapping[str, str]) -> str:
 
 
 def _checked(place: str) -> str:
-    """Return the name of an interface unchanged; convert the name of a machine to an IP address.
+    """Return an interface's name or an IP address unchanged, and a machine's name as its address.
 
     Raises:
-        LinkError: If the text is neither an interface nor an address.
+        LinkError: If the text is no interface's name, and no address is found for it.
     """
     if place in _interfaces():
         return place
