@@ -77,7 +77,7 @@ def test_a_pose_that_is_repeated_until_the_body_is_seen_again_is_told():
     # From 3 s to the last sample before 3.5 s; then from the pose at 3 s to the pose at 3.5 s.
     assert finding.message == (
         "hat in world repeats its last pose for up to 438 ms, and jumps 0.25 m within 62.5 ms "
-        "after such a time"
+        "when it moves again"
     )
 
 
@@ -90,6 +90,15 @@ def test_a_body_that_rests_and_is_then_placed_elsewhere_is_not_frozen(far):
     made = Robot()
     made.moving("world", "turtle1", 16.0, pose)
     assert "frozen-pose" not in ids(made, notes=True)
+
+
+def test_a_body_that_was_lost_may_have_slowed_down():
+    def pose(t: float) -> Pose:
+        return (0.5 * min(t, 3.0) + (0.06 + 0.2 * (t - 3.5) if t >= 3.5 else 0.0), 0, 0, *NO_TURN)
+
+    made = Robot()
+    made.moving("world", "hat", 16.0, pose)
+    assert ids(made) == ["frozen-pose"]
 
 
 def test_a_pose_on_two_topics_does_not_arrive_out_of_order():

@@ -98,22 +98,22 @@ def _is_zero(track: Track) -> Mask:
     Severity.WARNING,
     rule="a publisher repeats one pose of a moving frame exactly, with new stamps, for "
     "{seconds:g} s or more and {repeats:g} times or more. Then the frame jumps by {metres:g} m or "
-    "more, at {times:g} times the 95 % quantile of its speeds or more. Its usual speed explains "
-    "the distance of the jump in the time since the pose froze, and the frame moved before and "
-    "after",
+    "more, at {times:g} times its speed after the jump or more. Its usual speed explains the "
+    "distance of the jump in the time since the pose froze, and the frame moved before and after",
     headline="{where} {concerned:repeats its|repeat their} last pose for up to {longest:span}, "
-    "and {concerned:jumps|jump} {jump:m} within {within:span} after such a time",
+    "and {concerned:jumps|jump} {jump:m} within {within:span} when it moves again",
     detail="{edge}: the same pose {stretches}; the jump is at {at:moment}; usually at most "
     "{usual:.2g} m/s",
     consequence="while the pose is frozen, lookups return an old pose under a new stamp",
     fixes=(Fix("let the publisher send nothing while it has no new measurement"),),
     causes=("a motion capture that lost its object and sends the last pose",),
-    limits={"seconds": 0.25, "repeats": 4, "metres": 0.1, "times": 3.0},
+    limits={"seconds": 0.25, "repeats": 4, "metres": 0.05, "times": 3.0},
 )
 def frozen_pose(model: Model, limits: Limits) -> Iterator[Hit]:
     """A publisher repeats the last pose of a frame that moves meanwhile."""
+    invalid = {track.edge for tracks in with_placeholders(model) for track in tracks}
     for track in model.dynamic:
-        if track.is_localisation:
+        if track.is_localisation or track.edge in invalid:
             continue
         senders = track.senders[track.by_stamp]
         for sender in np.unique(senders).tolist():
@@ -137,17 +137,18 @@ def _frozen(track: Track, places: Places, limits: Limits) -> Hit | None:
     stamps = track.stamps[places]
     turned = (track.rotations[places[1:]] != track.rotations[places[:-1]]).any(axis=1)
     moves = np.flatnonzero((strides > 0.0) | turned)
-    speeds = strides[moves] / np.maximum(np.diff(stamps)[moves] / NANOSECONDS, 1e-3)
-    usual = float(np.percentile(speeds, 95))
-    # Between two moves, the pose is frozen.
-    froze, ends = moves[:-1] + 1, moves[1:]
+    speeds = strides / np.maximum(np.diff(stamps) / NANOSECONDS, _SHORT)
+    usual = float(np.percentile(speeds[moves], 95))
+    # Between two moves, the pose is frozen. Two steps after the jump show the speed.
+    is_followed = moves[1:] + 2 < len(strides)
+    froze, ends = moves[:-1][is_followed] + 1, moves[1:][is_followed]
     lasts = (stamps[ends] - stamps[froze]) / NANOSECONDS
     rests = (ends - froze >= limits["repeats"]) & (lasts >= limits["seconds"])
     since = (stamps[ends + 1] - stamps[froze]) / NANOSECONDS
-    slow = _SLOW * usual
-    jumps = rests & (strides[ends] >= limits["metres"]) & (speeds[1:] >= limits["times"] * usual)
-    jumps &= (strides[ends] <= usual * since) & (speeds[:-1] >= slow)
-    jumps &= np.append(speeds[2:] >= slow, False)
+    beside = np.vstack([speeds[froze - 1], speeds[ends + 1], speeds[ends + 2]])
+    jumps = rests & (strides[ends] >= limits["metres"]) & (strides[ends] <= usual * since)
+    jumps &= speeds[ends] >= limits["times"] * beside[1:].max(axis=0)
+    jumps &= beside.min(axis=0) >= _SLOW * usual
     if not jumps.any():
         return None
     worst = int(np.flatnonzero(jumps)[strides[ends][jumps].argmax()])
@@ -176,3 +177,6 @@ def _frozen(track: Track, places: Places, limits: Limits) -> Hit | None:
 
 _SLOW = 0.1
 """Fraction of the usual speed below which a frame may be at rest."""
+
+_SHORT = 1e-3
+"""Minimum time between two samples, seconds, that is used for a speed."""
