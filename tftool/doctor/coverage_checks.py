@@ -223,7 +223,7 @@ class Waits:
         return served
 
     def serves(self, percent: float) -> int:
-        """Return the timeout, nanoseconds, with which `percent` % of `served` lookups succeed."""
+        """Return the least timeout, nanoseconds, that is enough for `percent` % of `served`."""
         return int(np.percentile(self.served, percent, method="higher"))
 
 
@@ -352,7 +352,7 @@ def _waiting(model: Model, limits: Limits) -> Iterator[tuple[Heard, Waits]]:
 
 
 def _is_result(model: Model, heard: Heard, link: Track) -> bool:
-    """Whether a node that sends the edge `link` also sends a topic's messages, as a result.
+    """Whether a topic contains results of a node that also sends the edge `link`.
 
     Such a result, for example the pose of a localiser, needs no lookup.
     """

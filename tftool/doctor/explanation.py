@@ -154,7 +154,7 @@ def traced(model: Model, question: Question) -> Explanation:
 def _refusing(trace: LookupTrace, way: Sequence[Track], links: Sequence[TracedLink]) -> int | None:
     """Return the index of the failing edge in `way`; None if no edge fails.
 
-    If several edges fail, prefer an edge whose samples all are newer than the lookup.
+    If several edges fail, prefer an edge whose oldest sample is newer than the lookup's time.
     """
     refusing = [
         number for number, link in enumerate(links) if link.verdict is not LinkVerdict.ANSWERS

@@ -40,8 +40,8 @@ def _is_calm(buffer: Buffer, snapshot: Snapshot) -> bool:
 def marked(buffer: Buffer) -> dict[str, tuple[str, ...]]:
     """Return the marks of a buffer that may contain faults; see `marks`.
 
-    A frame gets the mark `edge-stopped` if its newest sample is older than the newest sample of any
-    frame on the same clock, by more than ten periods and more than one second.
+    A frame gets the mark `edge-stopped` if its newest sample is more than ten periods and more than
+    one second older than the newest of all samples on the same clock, except samples of localisers.
     """
     from tftool.doctor.clock_checks import clock_mixture
     from tftool.doctor.evidence import evidence_of_buffer

@@ -352,7 +352,7 @@ _EXACT = 0.05
 
 
 def _repeated(model: Model, track: Track, limits: Limits) -> list[tuple[int, int]]:
-    """Return the short gaps of the robot's pose in the world, if there are many; else no gap."""
+    """Return an edge's short gaps if they are many and the edge is the robot's pose; else []."""
     small = {**limits, "seconds": limits["again"], "periods": limits["missed"]}
     found = _in_service(model, track, small)
     many = bool(found) and len(found) >= limits["times"]
@@ -390,7 +390,7 @@ def _publisher_at(model: Model, track: Track, begin: int, end: int) -> Fix:
 
 
 def _in_service(model: Model, track: Track, limits: Limits) -> list[tuple[int, int]]:
-    """Return an edge's gaps, except those right after the first sample or before the recording."""
+    """Return the gaps of `holes`, except right after the first sample or before the recording."""
     found = holes(track, limits)
     if not found or not model.evidence.timed:
         return found
@@ -411,7 +411,7 @@ def _is_going_on(stream: Track | Heard, begin: int, end: int) -> bool:
 def _is_silent(stream: Track | Heard, begin: int, end: int) -> bool:
     """Whether a stream has no samples in the middle of another stream's gap.
 
-    Streams with a low rate do not count. The stamps `begin` and `end` bound the gap.
+    For a stream of low rate, the result is False. The stamps `begin` and `end` bound the gap.
     """
     margin = (end - begin) // 5
     low, high = np.searchsorted(np.sort(stream.stamps), (begin + margin, end - margin))
@@ -503,7 +503,7 @@ def single_sample(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _is_sibling(track: Track, other: Track) -> bool:
-    """Whether the child of `other` is an often detected object of the kind of `track`'s child.
+    """Whether the children of both edges are objects of one kind, and `other` has many samples.
 
     Such edges have one parent, and children such as marker_7 and marker_12.
     """

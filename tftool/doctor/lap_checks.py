@@ -91,7 +91,7 @@ def _counts(model: Model) -> list[int]:
 def _mixed(model: Model, count: int) -> str:
     """Return a clause about a buffer that is not cleared when data from the past arrives.
 
-    The buffer drops transforms older than its cache, and mixes the other old poses with newer ones.
+    The buffer drops transforms older than the cache time, and mixes other old poses with new poses.
 
     Args:
         model: Model of the evidence.

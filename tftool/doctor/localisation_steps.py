@@ -42,8 +42,8 @@ class LocalisationStep:
         within: Time since the previous sample, nanoseconds.
         moved: Part of the displacement that the velocity does not explain, metres.
         turned: Part of the rotation that the velocity does not explain, radians.
-        drift_moved: Displacement from the previous jump (or the start) to this jump, metres.
-        drift_turned: Rotation from the previous jump (or the start) to this jump, radians.
+        drift_moved: Displacement from the previous jump (or the first sample) to this jump, metres.
+        drift_turned: Rotation from the previous jump (or the first sample) to this jump, radians.
     """
 
     edge: Edge

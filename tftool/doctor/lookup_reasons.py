@@ -208,7 +208,7 @@ def no_join(known: TraceResult) -> Reason:
 
 
 def works(known: TraceResult) -> Reason:
-    """Return the reason for a successful lookup, with faults that may stop it in a user's node."""
+    """Return the reason for a success, or a fault with which the lookup may fail in a node."""
     model, question = known.trace.model, known.trace.question
     for frame in (question.source, question.target):
         tree = model.tree_of.get(frame)

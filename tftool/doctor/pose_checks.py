@@ -56,7 +56,7 @@ def placeholder_pose(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def with_placeholders(model: Model) -> list[list[Track]]:
-    """Return the detections that are sent as zeros by turns, one list per parent and publisher."""
+    """Return detections that alternate with zeros, one list of edges per parent and publisher."""
     groups: dict[tuple[str, int], list[Track]] = defaultdict(list)
     changes: dict[tuple[str, int], int] = defaultdict(int)
     for track in model.dynamic:

@@ -202,7 +202,7 @@ def nothing_says(model: Model, root: str, mount: str = "") -> Fix:
 def _is_convention(tree: Tree, topics: Mapping[str, int]) -> bool:
     """Whether a tree contains only a frame and copies with other axes, such as odom and odom_ned.
 
-    The result is False if `topics`, the number of messages in the tree by topic, is not empty.
+    The result is False if any messages are in frames of the tree; `topics` counts these messages.
     """
     others = {f"{tree.root}_{axes}" for axes in ("ned", "enu", "frd", "flu")}
     return not topics and len(tree.frames) > 1 and tree.frames <= {tree.root, *others}

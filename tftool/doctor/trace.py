@@ -147,9 +147,9 @@ class LookupTrace:
         self.asked, self.because, self.after = self._asked()
 
     def _message(self) -> Heard | None:
-        """Return the topic in the source frame whose message needs the lookup; None if unknown.
+        """Return the topic whose messages in the source frame need the lookup; None if unknown.
 
-        This is the topic of the question, else the first topic with a message of that stamp.
+        This is the topic of the question, else the first topic with a message of the lookup's time.
         """
         for heard in self.model.heard:
             if heard.frame != self.question.source or not len(heard.stamps):
@@ -196,7 +196,7 @@ class LookupTrace:
 
     @staticmethod
     def newest_before(stamps: Stamps) -> Stamp:
-        """Return the newest stamp except the last to arrive; for a single stamp, this stamp."""
+        """Return the newest stamp; ignore the last stamp to arrive unless it is the only one."""
         return int(stamps[:-1].max(initial=stamps[0]))
 
     def way(self) -> list[Track] | None:
