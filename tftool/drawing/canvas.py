@@ -182,7 +182,7 @@ class Canvas:
     def _grow(
         self, kept: "_KeptDrawing", drawn: Drawn, place: object, field: TurtleField | None = None
     ) -> None:
-        """Draw the new strokes of `drawn` into its cache `kept`.
+        """Draw the new strokes of the drawing `drawn` into the cache `kept`.
 
         All strokes are drawn again if the drawing was moved, replaced or shortened.
         """

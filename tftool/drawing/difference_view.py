@@ -22,7 +22,7 @@ HEAD: Final = ("link", "change", "mm", "degrees", "")
 
 
 def lines(found: Differences, width: int | None = None, *, everything: bool = False) -> str:
-    """Return differences as text: a line for each edge that differs in the trees, and a summary.
+    """Return differences as text: a line for each edge that differs between A and B, and a summary.
 
     Args:
         found: The differences.
@@ -54,7 +54,7 @@ def _table(rows: list[tuple[str, ...]], width: int | None) -> list[str]:
 
 
 def summary(found: Differences) -> str:
-    """Return a sentence with the number of edges that differ in the trees, and the tolerance."""
+    """Return a sentence with the number of edges that differ between A and B, and the tolerance."""
     count, total = len(found.changed), len(found.links)
     limit = found.tolerance
     measures = [f"{limit.millimetres:g} mm", f"{limit.degrees:g}°"]

@@ -158,8 +158,8 @@ class Branch:
     Attributes:
         info: The frame.
         depth: Number of levels below the root.
-        turns: For each frame on the path from the root's child to this frame, whether it is its
-            parent's last child; for a deep frame, only the last `DEEPEST` values.
+        turns: Whether each frame on the path from the root's child to this frame is the last child
+            of its parent; for a deep frame, only the last `DEEPEST` values.
         closes_loop: Whether the edge to this frame's parent closes a loop, and so is not drawn.
     """
 

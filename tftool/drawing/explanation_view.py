@@ -118,8 +118,8 @@ def _later(found: Explanation) -> str:
 class _Links:
     """Table with a row for each edge of a lookup's path.
 
-    On a narrow terminal, the outcome at an edge is written below the row. On a very narrow one, the
-    other columns are not aligned and have no heading.
+    On a narrow terminal, the outcome at an edge is written below the row. If the terminal is very
+    narrow, the other columns are not aligned and have no heading.
     """
 
     def __init__(self, found: Explanation) -> None:

@@ -404,7 +404,7 @@ def _of_robot(branch: Branch, moving: Collection[str]) -> Branch:
 
 
 def _told(snapshot: Snapshot, moving: Collection[str] | None) -> str:
-    """Return the text above a tree: the time, or for a description the number of moving joints."""
+    """Return the text above a tree: time of the snapshot, or number of a robot's moving joints."""
     if moving is not None:
         return f"{len(moving)} of {max(len(snapshot.frames) - 1, 0)} joints move"
     zone = " UTC" if snapshot.now >= SIMULATED_BELOW else ""

@@ -87,7 +87,7 @@ class PlotLook:
         return _LIGHT if self.light else _DARK
 
     def color(self, number: int) -> Color:
-        """Return the colour of the curve with a number, which counts through all panels."""
+        """Return the colour of curve `number`; numbers count from 1 through all panels."""
         return self.colors[(number - 1) % len(self.colors)]
 
     @property
@@ -415,7 +415,7 @@ def pair_plot(
     ascii_only: bool = False,
     note: str = "",
 ) -> list[Text]:
-    """Draw the distance between two frames over time and, if there is room, the yaw.
+    """Draw the distance between two frames over time and, if there is room, their relative yaw.
 
     Args:
         path: Poses of the pair, NaN at times without a pose; the whole path sets the scale.

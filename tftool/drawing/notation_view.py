@@ -135,7 +135,7 @@ NOTHING = 5e-7
 
 
 def static_lines(parent: str, child: str, pose: Transform) -> str:
-    """Return a pose as lines: the output of static_transform_publisher, and a sentence."""
+    """Return a pose as the lines that static_transform_publisher prints, and a sentence."""
     x, y, z = pose.translation
     qx, qy, qz, qw = pose.rotation
     return (

@@ -229,7 +229,7 @@ class _Sheet:
         self._items_placed = (items, corners)
 
     def squareness(self) -> float:
-        """Return how much the sheet's aspect ratio differs from 1.6 to 1, that of a screen."""
+        """Return how much the sheet's aspect ratio differs from a screen's ratio of 1.6."""
         return abs(math.log(self.width / self.height / 1.6))
 
     def _items(self) -> list[Item]:

@@ -53,7 +53,7 @@ class PlaneFrame:
 
     @property
     def theta(self) -> float:
-        """Direction of the frame's x axis, radians."""
+        """Angle from the fixed frame's x axis to the x axis of this frame in the plane, radians."""
         return math.atan2(self.axes[0][1], self.axes[0][0])
 
 
@@ -64,7 +64,7 @@ class TurtleField:
     Attributes:
         x: Coordinate of the lower left corner, metres.
         y: Coordinate of the lower left corner, metres.
-        theta: Heading, radians.
+        theta: Angle from the x axis of the plane to the x axis of the field, radians.
         color: Background colour.
         walls: Sides that a turtle just hit: "left", "right", "bottom", "top".
     """

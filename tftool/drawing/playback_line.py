@@ -43,7 +43,7 @@ class PlaybackMark:
     """Finding of the doctor, marked in the bar of a playback line.
 
     Attributes:
-        since: Begin of the finding, nanoseconds from the recording's start.
+        since: Start of the finding, nanoseconds from the recording's start.
         until: End of the finding, nanoseconds from the recording's start.
         message: Text of the finding, one line.
         severity: Severity of the finding.
@@ -271,10 +271,10 @@ def topic_lines(
 
 
 def after(marks: Sequence[PlaybackMark], now: Duration) -> Duration | None:
-    """Return the begin of the next finding after the position `now`; None without a finding."""
+    """Return the start of the next finding that begins after `now`; None without a finding."""
     return min((one.since for one in marks if one.is_timed and one.since > now), default=None)
 
 
 def before(marks: Sequence[PlaybackMark], now: Duration) -> Duration | None:
-    """Return the begin of the last finding before the position `now`; None without a finding."""
+    """Return the start of the last finding that begins before `now`; None without a finding."""
     return max((one.since for one in marks if one.is_timed and one.since < now), default=None)

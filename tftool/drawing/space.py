@@ -141,7 +141,7 @@ class OrbitCamera:
         self.look_from(names[(names.index(self.name) + 1) % len(names)])
 
     def turn(self, right: float, up: float) -> None:
-        """Orbit the scene by `right` steps to the right and `up` steps up."""
+        """Move the camera around the scene by `right` steps to the right and `up` steps up."""
         self.name, self._is_chosen = "orbit", True
         self._azimuth += TURN * right
         quarter = 0.5 * math.pi

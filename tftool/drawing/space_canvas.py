@@ -94,8 +94,8 @@ class DrawnSpace:
         image: Red, green and blue from 0 to 255 of the solids at every dot.
         depth: Nearest triangle at every dot, and its depth.
         layers: Lines in the order in which they are drawn.
-        edges: Mask of the dots at inner outlines, where a part is in front of another. In a plain
-            picture, also of the dots at outer outlines of solids.
+        edges: Mask of the dots at inner outlines, where a part is in front of another, and in a
+            plain picture (see `drawn`) also of the dots at outer outlines of solids.
         names: Labels, the most important first: the frame, the text, the number of frames at this
             position, and the column and row in dots from the upper left corner.
         grid: Metres between two lines of the grid.

@@ -55,7 +55,7 @@ class FittedColumns:
         columns: Columns from left to right.
         widths: Width of each column in cells.
         room: Width of the first column in cells.
-        more: Sign for text that was cut out.
+        more: Sign that replaces omitted text.
     """
 
     columns: tuple[TableColumn, ...]
@@ -97,7 +97,7 @@ def fit(
         width: Width of the table in cells.
         wanted: Cells wanted for the first column.
         longest: Maximum number of cells that the first column can use.
-        more: Sign for text that is cut out.
+        more: Sign that replaces omitted text.
     """
     kept = [one for one in columns if any(text for text, _ in one.cells)]
     while True:

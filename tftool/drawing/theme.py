@@ -141,7 +141,7 @@ def prefers_light(environment: Mapping[str, str] = MappingProxyType({})) -> bool
 
 
 class PaperColors(NamedTuple):
-    """Colours for one background: of the background, of the grid, of lines to parents, of axes."""
+    """Colours for one background, in order: background, grid, lines to parents, axes, accent."""
 
     ground: Color
     grid: Color

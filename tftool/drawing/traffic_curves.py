@@ -76,7 +76,7 @@ class TrafficLayout:
 
     @property
     def more(self) -> str:
-        """Sign for text that is cut out."""
+        """Sign that replaces omitted text."""
         return "~" if self.ascii_only else "…"
 
     @property
@@ -253,7 +253,7 @@ def _block(
 
 
 def _words(link: FrameTraffic, layout: TrafficLayout, *, is_late: bool = False) -> list[str]:
-    """Return the texts of an edge: its frame after a health sign, its parent, its publisher."""
+    """Return three texts about an edge: frame (with a health sign), parent, and publisher."""
     sign = ("!" if is_late else "+") if layout.ascii_only else "●"
     return [
         f"{' ' if link.is_static else sign} {visible(link.frame)}",
