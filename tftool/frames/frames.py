@@ -95,7 +95,7 @@ class Frames:
 
     @property
     def label(self) -> str:
-        """Name of the file as the user gave it; without a file, the title."""
+        """Name of the file as the user gave it; `title` for a scenario or a session."""
         return self.title if self.kind in ("scenario", "session") else self.name
 
     @property
@@ -159,7 +159,7 @@ class Frames:
         """Return the stamp of a time in the notation of the option `--at`.
 
         Raises:
-            UsageError: If the time is before the beginning or after the end.
+            UsageError: If the time is before the start or after the end of the source.
         """
         start, end = self.span
         received = 0

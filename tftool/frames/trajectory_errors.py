@@ -132,7 +132,7 @@ def trajectory_errors(
         kinds: Kinds of error: "ape", "rpe", or both.
         fit: Alignment of B with A before the comparison: none, by the first pose, rigid, or rigid
             with scale.
-        match: Whether to use the nearest pose of A, or to interpolate A at the stamps of B.
+        match: Whether to compare poses nearest in time, or to interpolate A at the stamps of B.
         step: Length of the parts for the relative error; None for parts of one pose.
 
     Raises:

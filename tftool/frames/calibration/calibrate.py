@@ -337,7 +337,7 @@ class _Solver:
         return best[1], best[2]
 
     def _judged(self, pairs: MotionPairs, fit: Fit, shown: _Shown) -> _Shown:
-        """Return `shown`; if a second axis of rotation is only noise, what one axis determines."""
+        """Return `shown`, or the parts that one axis determines if a second axis is only noise."""
         if shown.axis is not None:
             return shown
         values, vectors = np.linalg.eigh(pairs.turns_a.T @ pairs.turns_a / len(pairs.turns_a))

@@ -259,10 +259,10 @@ class _Residuals:
         return reduced.sum(axis=0), gradient.sum(axis=0)
 
     def blocks(self, basis: Floats) -> tuple[Floats, Floats]:
-        """Return the normal equations of each time block, for a bootstrap.
+        """Return matrices and right sides of each time block's normal equations, for a bootstrap.
 
-        If there is only one segment, the parameters of Y are included. Otherwise each segment is a
-        block.
+        With several segments, each segment is a block. With one segment, the segment is divided
+        into blocks, and the equations include the parameters of Y.
         """
         if self.count > 1:
             reduced, gradient, _, _ = self.by_segment(basis)
@@ -337,7 +337,7 @@ class MotionPairs:
         turns_b: Rotation vectors of B, radians about the axes of B, shape (n, 3).
         moves_a: Translations of A along the axes of A, metres, shape (n, 3).
         moves_b: Translations of B along the axes of B, metres, shape (n, 3).
-        rotations_a: Rotations of A, quaternions, shape (n, 4).
+        rotations_a: The rotations of `turns_a` as quaternions, shape (n, 4).
         largest: Largest angle that A turns by in ten seconds, radians.
     """
 

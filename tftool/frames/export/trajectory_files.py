@@ -411,7 +411,7 @@ def _writer(
     progress: Progress | None,
     before: bytes = b"",
 ) -> "Callable[..., None]":
-    """Return a function that writes lines of numbers to `file`; each begins with `before`."""
+    """Return a function that writes lines of numbers to `file`; each line begins with `before`."""
     done = 0
 
     def write(
