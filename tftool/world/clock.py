@@ -192,7 +192,7 @@ class SimClock(Clock):
         return VirtualLoop(self)
 
     def limit(self, until: Stamp | None) -> None:
-        """End nodes that block the event loop for 20 real seconds; end none if `until` is None."""
+        """Raise `Overdue` in nodes that block the loop for 20 real s, unless `until` is None."""
         if self.stopper is not None:
             self.stopper.limit(None, None if until is None else STANDSTILL)
 
@@ -329,7 +329,7 @@ class WallClock(Clock):
         self._simulated: Stamp | None = self.epoch if head_start else None
 
     def now(self) -> Stamp:
-        """Return the current time: at rate 1, nanoseconds since the Unix epoch."""
+        """Return the time in nanoseconds: Unix time, unless `rate` or `epoch` was given."""
         return self._real() if self._simulated is None else self._simulated
 
     def _real(self) -> Stamp:
@@ -440,7 +440,7 @@ class FollowedClock(WallClock):
         return self._told is not None
 
     def now(self) -> Stamp:
-        """Return the time that the clock was last set to, else real time."""
+        """Return the last time set by `tell`; before `tell` and after `run_on`, real time."""
         return super().now() if self._told is None else self._told
 
     def tell(self, moment: Stamp) -> None:
@@ -465,7 +465,7 @@ class FollowedClock(WallClock):
             self.fell_back.call(-change)
 
     async def told_once(self, patience: Duration) -> None:
-        """Wait for the first time to be set, at most `patience` nanoseconds of real time."""
+        """Wait until `tell` has set a time, at most `patience` nanoseconds of real time."""
         first = self._first = asyncio.get_running_loop().create_future()
         if self.is_told:
             first.set_result(None)
@@ -483,7 +483,7 @@ class FollowedClock(WallClock):
             self._set_alarm()
 
     def limit(self, until: Stamp | None) -> None:
-        """Set the time after which a blocking node is ended, if the clock shows real time."""
+        """Set the time after which a blocking node is ended; no limit while `is_told`."""
         super().limit(None if self.is_told else until)
 
     def _shift(self, change: Duration) -> None:

@@ -1,4 +1,4 @@
-"""Recording of a world's transforms in a second buffer and a list, and of message headers."""
+"""Recorders of a world's transforms, in a buffer and a list, and of message headers."""
 
 import asyncio
 from collections.abc import Callable, Coroutine, Iterator
@@ -87,7 +87,7 @@ _HEADER: Final = "std_msgs/msg/Header"
 
 
 class HeaderListener:
-    """Recorder of the headers of the first messages on topics of other processes."""
+    """Recorder of the headers of the first 50 messages on each topic of other processes."""
 
     def __init__(self) -> None:
         self._world: World | None = None

@@ -152,9 +152,9 @@ class Node(Resident):
         callback: Callable[[T], object],
         quality: Quality = USUAL,
     ) -> Callable[[], None]:
-        """Call `callback` with each message of a topic; if `callback` raises, this node fails.
+        """Call `callback` with each message of a topic; return a function that ends the calls.
 
-        A latched subscription also gets earlier messages of latched publishers.
+        A latched subscription gets earlier messages too. If `callback` raises, this node fails.
         """
         return self._until_end(self.world.subscribe(self.name, topic, kind, callback, quality))
 
@@ -204,7 +204,7 @@ class Node(Resident):
     # Settings
 
     def declare_parameter(self, name: str, default: Value) -> Value:
-        """Declare a parameter with a default; return the parameter's value."""
+        """Declare a parameter; return `default`, or the value if already declared."""
         return self.parameters.declare(name, default)
 
     def get_parameter(self, name: str) -> Value:

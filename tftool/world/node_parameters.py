@@ -45,7 +45,7 @@ def value_of(message: Any) -> Any:
 
 
 def value_message(value: Any, number: int) -> Any:
-    """Return the rcl_interfaces ParameterValue of a Python value; None becomes "not set"."""
+    """Return the rcl_interfaces ParameterValue of a value whose ROS 2 type has this `number`."""
     message: Any = INTERFACES.message("rcl_interfaces/ParameterValue")(type=number)
     field = FIELDS[number]
     if field is not None and value is not None:
@@ -86,7 +86,7 @@ class Parameters:
         self._listeners: list[Callable[[str, Value], object]] = []
 
     def declare(self, name: str, default: Value) -> Value:
-        """Declare a parameter, whose type is the type of the default; return the value."""
+        """Declare a parameter of the type of `default`; return `default`, or an earlier value."""
         return self._values.setdefault(name, default)
 
     def __getitem__(self, name: str) -> Value:

@@ -36,7 +36,7 @@ async def wait_for_transform(
         timeout: Longest wait, nanoseconds; None for no limit.
 
     Raises:
-        TimeoutException: If the transform was not available in time; the cause is the last error.
+        TimeoutException: If no lookup succeeds in time; the cause is the last lookup's error.
         InvalidArgumentException: If a frame's name is invalid.
         TransformException: If the buffer has already dropped the transforms at that time.
         TypeError: If the time or the timeout is not a whole number.
@@ -55,7 +55,7 @@ async def wait_for_transform_full(
     fixed_frame: str,
     timeout: Duration | None = None,
 ) -> TransformStamped:
-    """Wait for the transform between frames at two times through a fixed frame, and return it.
+    """Return the transform between frames at two times, via a fixed frame, once available.
 
     Raises the errors of `wait_for_transform`. If all three frames have the same name, and no such
     frame exists, LookupException is raised at once.

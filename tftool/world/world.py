@@ -302,8 +302,8 @@ class World:
 
         Args:
             name: Name of the service.
-            handler: Function that responds to a request, at once or as a coroutine; None means a
-                response of default values.
+            handler: Function that responds to a request, at once or as a coroutine. If the
+                function returns None, the response has default values.
             kind: ROS class of the service; None if only this process may call it.
             node: Name of the server's node.
             is_remote: Whether the server is in another process.
@@ -512,7 +512,7 @@ class World:
         fixed_frame: str,
         timeout: Duration | None = None,
     ) -> TransformStamped:
-        """Wait for a transform between frames at two times, and return it; see `transform_wait`."""
+        """Return a transform between frames at two times once available; see `transform_wait`."""
         return await waiting.wait_for_transform_full(
             self.buffer,
             self.clock,

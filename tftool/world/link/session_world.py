@@ -110,7 +110,7 @@ class Session:
         await lasting(self.world.clock, duration)
 
     async def listened(self, duration: Duration) -> None:
-        """Wait for a duration; on a robot, wait a little longer for missing static transforms."""
+        """Wait for a duration; in a robot's session, wait a little longer for static transforms."""
         await self.lasting(duration)
         if self.link is None or not self.link.options.reach.is_robots:
             return
@@ -166,7 +166,7 @@ def joined_session(
 
 
 def session_name(link: "Link", place: str) -> str:
-    """Return a session's name for messages, from the name of its host or of one of its nodes."""
+    """Return a session's name for messages: its host's name, else that of a node, else `place`."""
     if link.options.reach.only_reads:
         return visible(place)
     processes = link.graph.processes()

@@ -95,7 +95,7 @@ class TopicBridge:
     # Incoming messages
 
     def _subscribe(self, stated: Endpoint | None) -> Callable[[], None]:
-        """Announce a subscription; if latched, also request the messages sent before."""
+        """Announce a subscription; if latched, request earlier messages. Return a stop function."""
         link, name, ros_type = self._link, self._topic.name, self._type
         node = link.main_node if stated is None else stated.node
         quality = USUAL if stated is None else stated.quality
@@ -210,7 +210,7 @@ class TransformBridge:
         self.refresh()
 
     def refresh(self) -> None:
-        """Count the subscribers in other processes; close publishers of nodes that have left."""
+        """Count the topic's subscribers in other processes; close publishers of departed nodes."""
         others = self._link.graph.entities(SUBSCRIPTION, name=self._topic.name)
         self._topic.far_subscribers = len(others)
         self._dismiss()

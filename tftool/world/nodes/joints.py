@@ -312,10 +312,10 @@ class MovingRobot(RobotStatePublisher):
             file: The robot, loaded from the file that the scenario names.
             joints: Fixed positions of joints, which sine and steps do not move.
             motion: Motion of the other joints: "still"; "sine" between the limits of a joint
-                (without limits, over a radian); "steps" between lower limit, middle and upper
-                limit, a third of a cycle each; or "recorded", from `recording`.
+                (without limits, -1 and 1); "steps" to the middle, the upper limit, the middle and
+                the lower limit, a quarter of a cycle each; or "recorded", from `recording`.
             recording: Joint states for the motion "recorded".
-            cycle: Nanoseconds of one motion to the other limit and back, for the first joint. Each
+            cycle: Nanoseconds until the first joint's motion repeats, after both limits. Each
                 further joint takes a little longer, so that no two joints move alike.
             period: Nanoseconds between two joint states.
             frame_prefix: Prefix of every frame's name.

@@ -92,7 +92,7 @@ class _Pixels:
         return BLANK if pixels is None else self._palette[pixels[column]]
 
     def paint(self, segment: Segment) -> None:
-        """Set every pixel whose centre is on a stroke, which has square ends.
+        """Colour every pixel whose centre is on the stroke; a stroke has square ends.
 
         A stroke is a rectangle that exceeds both ends by half the stroke's width. The pixels
         nearest to the ends always belong to the stroke, even to a very thin stroke.

@@ -265,7 +265,7 @@ class IdleDrawing(Node):
             self.info(f"{self.turtle} draws by itself until a key is pressed.")
 
     def _steer(self, pose: Any) -> Any:
-        """Return the command that steers towards the point of the rose a little ahead."""
+        """Return the command that steers to a point of the rose curve a little ahead of `pose`."""
         for _ in range(_STEPS):
             if _away(pose, self._phase) >= _AHEAD:
                 break

@@ -174,7 +174,7 @@ def hash_shown(user_data: bytes) -> str:
 
 
 def vendor(gid: bytes) -> str:
-    """Return the DDS library of an endpoint or participant, by its GUID."""
+    """Return the name of the DDS library of an endpoint or participant, from its GUID."""
     return VENDORS.get(gid[:2], "another DDS library")
 
 

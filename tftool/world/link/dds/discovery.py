@@ -326,7 +326,7 @@ class Discovery:
         self._exchange(f"process {participant.hex()}", None)
 
     def _exchange(self, key: str, new: GraphEntity | Process | None) -> None:
-        """Replace the graph's entry under a key (None: remove it), and report the change."""
+        """Replace the graph's entry under a key by `new` (None: no entry); report the change."""
         old = self.graph.get(key)
         if old == new:
             return
@@ -413,7 +413,7 @@ class Discovery:
 
 
 def _ignore(_: GraphEntity | Process | None, __: bool) -> None:
-    """Report nothing."""
+    """Do nothing, in place of a function that reports changes of the graph."""
 
 
 def _key(key: tuple[str, bytes]) -> str:

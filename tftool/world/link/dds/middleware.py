@@ -214,7 +214,7 @@ class DdsMiddleware(Middleware):
         *,
         is_latched: bool = False,
     ) -> Callable[[], None]:
-        """Call `on_message` with other processes' messages on a topic."""
+        """Call `on_message` with other processes' messages on a topic; see `Middleware.listen`."""
         listening = _Listening(self, name, ros_type, on_message, is_latched=is_latched)
         try:
             listening.open(is_reliable=self._asks_reliable(name, ros_type))
@@ -270,7 +270,7 @@ class DdsMiddleware(Middleware):
     def server(
         self, node: str, name: str, ros_type: str, on_request: Callable[[WireRequest], object]
     ) -> Callable[[], None]:
-        """Serve a service as a node of this process."""
+        """Serve a service as a node of this process; return a function that stops the server."""
 
         def stranger(vendor: str) -> None:
             self.say_once(

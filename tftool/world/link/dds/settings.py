@@ -81,12 +81,12 @@ def network(places: Iterable[str], environment: Mapping[str, str] | None = None)
     """Return the network in which to search for other participants.
 
     Args:
-        places: Interfaces and addresses from the option --dds-on.
+        places: Interfaces, and addresses or names of machines, from the option --dds-on.
         environment: Environment variables; None for those of this process.
 
     Raises:
-        LinkError: If a place is neither an interface nor an address, or the environment forbids
-            discovery.
+        LinkError: If a place is neither an interface nor a machine, or an environment variable
+            forbids the discovery.
     """
     variables = os.environ if environment is None else environment
     interfaces: list[str] = []

@@ -364,7 +364,7 @@ class FoxgloveClient:
             self._send(protocol.request("subscribe", subscriptions=asked))
 
     def _ask_again_later(self, sentence: str) -> bool:
-        """Subscribe again later if `sentence` refuses a subscription; return whether it does.
+        """If `sentence` refuses a subscription, subscribe again later; return whether this is so.
 
         Servers made with Foxglove's SDK announce a channel slightly before the channel accepts
         subscriptions. The server refuses a quick subscription, and without a second subscription no

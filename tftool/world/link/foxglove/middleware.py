@@ -84,7 +84,7 @@ class FoxgloveMiddleware(Middleware):
         *,
         is_latched: bool = False,
     ) -> Callable[[], None]:
-        """Call `on_message` with the server's messages on a topic."""
+        """Call `on_message` with the server's messages on a topic; see `Middleware.listen`."""
         topic = name, ros_type
         ears = self._ears.setdefault(topic, [])
         ears.append(on_message)

@@ -95,7 +95,7 @@ class ZenohMiddleware(Middleware):
             raise
 
     def _reach_out(self, others: dict[str, int]) -> None:
-        """Wait for connections to local processes, and to the endpoints in the option `connect`."""
+        """Wait for connections to `others` (local processes) and to the endpoints in `connect`."""
 
         # zenoh's own wait is short, and processes of a busy machine respond slowly: if they were
         # ignored, a second world would be hosted. A stopped process never responds.
@@ -210,7 +210,7 @@ class ZenohMiddleware(Middleware):
         *,
         is_latched: bool = False,
     ) -> Callable[[], None]:
-        """Call `on_message` with other processes' messages on a topic."""
+        """Call `on_message` with other processes' messages on a topic; see `Middleware.listen`."""
 
         def arrived(sample: Sample) -> None:
             try:
@@ -228,7 +228,7 @@ class ZenohMiddleware(Middleware):
     def server(
         self, node: str, name: str, ros_type: str, on_request: Callable[[WireRequest], object]
     ) -> Callable[[], None]:
-        """Serve a service as a node of this process."""
+        """Serve a service as a node of this process; return a function that stops the server."""
 
         def asked(query: Query) -> None:
             try:
