@@ -301,7 +301,7 @@ class Tolerance:
     angle: float = NEAR
 
     def words(self, *, position: bool, angle: bool) -> str:
-        """Return the tolerance as text in brackets; "" for tolerances that only cover rounding."""
+        """Return the chosen tolerances as text in brackets; "" if they only cover rounding."""
         parts = []
         if position and self.position != NEAR:
             parts.append(f"{self.position:g} m")

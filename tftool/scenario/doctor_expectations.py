@@ -93,7 +93,7 @@ def rules(node: Node, reading: Reading) -> DoctorRules:
 
 
 def rules_beside(path: str | Path) -> tuple[DoctorRules, Path | None]:
-    """Return the rules beside a recording (`run.doctor.yaml` beside `run.mcap`), and their file.
+    """Return (rules, file) from `run.doctor.yaml` beside `run.mcap`, or (`NO_RULES`, None).
 
     Raises:
         InputError: If the file cannot be read; a `ScenarioError` lists every mistake in the file.

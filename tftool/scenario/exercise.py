@@ -55,7 +55,7 @@ class Exercise:
     tell: Callable[[LogRecord], object] = lambda record: None
 
     def judge(self, scenario: Scenario, *, watch: Watch = nullcontext) -> Verdict:
-        """Play a scenario with the programs on simulated time; return whether expectations held.
+        """Play a scenario with the programs on simulated time; return the verdict.
 
         If a program fails, the verdict reports the failure, and the other programs continue.
 

@@ -252,7 +252,7 @@ def declare(kinds: dict[str, type[Any]], key: str, **facts: object) -> Callable[
 
 
 def parts_of(kind: type[Declared]) -> dict[str, tuple[Key, bool]]:
-    """Return the keys that a class reads, each with (reader, whether beside the class's key)."""
+    """Map each key that a class reads to (`Key`, whether written beside the class's key)."""
     return {
         one.key or name: (Key(one.read, one.default), one.beside)
         for name, one in kind.declared.items()
@@ -265,15 +265,15 @@ def attribute_names(kind: type[Declared]) -> dict[str, str]:
 
 
 def suggest(word: str, known: Iterable[str], *, always: bool = False) -> str:
-    """Return the end of a message about an unknown word: a known word that is near, or all words.
+    """Return the end of a message about an unknown word: a similar known word, or all known words.
 
     Args:
         word: Unknown word.
         known: Words that would be right.
-        always: Whether to list all known words if no known word is near.
+        always: Whether to list all known words if no known word is similar.
 
     Returns:
-        Text that begins with "; "; "" if no known word is near and `always` is false.
+        Text that begins with "; "; "" if no known word is similar and `always` is false.
     """
     choices = list(known)
     meant = did_you_mean(word, choices)

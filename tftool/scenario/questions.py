@@ -219,7 +219,7 @@ class Distance(Between):
 
 @declare(SUBJECTS, "bearing", form=range_form(ANGLE))
 class Bearing(Between):
-    """Question for the direction from frame `start` to the origin of frame `end`."""
+    """Question for the direction of the origin of frame `end`, seen from frame `start`."""
 
     def answer(self, scene: ScenarioWorld) -> float:
         """Return the angle to `end` in radians, counter-clockwise from the x axis of `start`."""
@@ -333,7 +333,7 @@ class MemoryOf(OfFrame):
 
 @declare(SUBJECTS, "frame", form=FRAME_FORM, short="name")
 class FrameOf(Subject):
-    """Question for the facts about a frame: its existence, parent and publisher."""
+    """Question for the facts about a frame, such as parent and publisher; see `FrameFacts`."""
 
     name: str = reads(values.frame)
 
@@ -352,12 +352,12 @@ class FrameOf(Subject):
 
 @declare(SUBJECTS, "trees", form=COUNT_FORM, short="count")
 class Trees(Subject):
-    """Question for the number of trees."""
+    """Question for the number of trees that the frames form."""
 
     count: int = reads(values.whole(0, 100_000))
 
     def answer(self, scene: ScenarioWorld) -> int:
-        """Return the number of trees."""
+        """Return the number of trees that the frames form."""
         return len(scene.roots())
 
     def __str__(self) -> str:

@@ -40,7 +40,7 @@ class StepFailed(TftoolError):
 
 
 class Script(Node):
-    """Node that carries out a script's actions at their times; equal times are in file order.
+    """Node that carries out a script's actions in order of time, then of position in the file.
 
     An action that fails is logged and recorded, and does not prevent later actions.
 
