@@ -36,7 +36,7 @@ def climbed(frame: str, parent: Callable[[str], EdgeT | None]) -> list[EdgeT]:
 def up_to_join(
     frame: str, other: str, above: Callable[[str], list[EdgeT]]
 ) -> tuple[list[EdgeT], list[EdgeT]] | None:
-    """Return (edges above `frame`, edges above `other`) up to the common ancestor, else None.
+    """Return the edges from `frame` and from `other` to the common ancestor; None if there is none.
 
     Args:
         frame: The first frame.

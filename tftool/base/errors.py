@@ -222,7 +222,7 @@ class TransformException(TftoolError):
 
     @property
     def remedy(self) -> str:
-        """Return a sentence of advice, often with the size of the fault; "" without advice."""
+        """Return a sentence of advice, often with facts, such as a duration; "" without advice."""
         return ""
 
 
@@ -260,7 +260,7 @@ class LookupException(TransformException):
 
     @property
     def remedy(self) -> str:
-        """Return a sentence with similar frame names, or with the number of known frames."""
+        """Return a sentence about the loop, or with similar names or the number of known frames."""
         if self.looped:
             return "A frame is below one of its own children: check which nodes publish the links."
         if self.frame is None:
@@ -302,7 +302,7 @@ class InvalidArgumentException(TransformException):
 
     @property
     def remedy(self) -> str:
-        """Return a sentence that advises to use the frame name without its slash."""
+        """Return advice to omit the leading slash, or to give a name if the name is empty."""
         plain = (self.frame or "").lstrip("/")
         return f"Use '{plain}'." if plain else "Give the name of a frame."
 
@@ -327,7 +327,7 @@ class TimeoutException(TransformException):
 
     @property
     def remedy(self) -> str:
-        """Return the advice of the last failed lookup."""
+        """Return the advice of the last failed lookup; "" if no lookup failed."""
         return "" if self.refusal is None else self.refusal.remedy
 
 
