@@ -233,7 +233,7 @@ def euler_from_matrix(
 ) -> tuple[float, float, float]:
     """Return Euler angles, radians, of a 3×3 matrix or of the upper left of a 4×4 matrix.
 
-    If several sets of angles are equivalent, the last angle is 0.
+    At gimbal lock, where infinitely many sets of angles fit, the last angle is 0.
 
     Raises:
         ValueError: If `axes` is not one of `AXES`.

@@ -239,7 +239,7 @@ IDENTITY = Transform()
 
 
 def compose(first: Transform, second: Transform) -> Transform:
-    """Return `a_from_c` for `a_from_b` and `b_from_c`; the quaternion's sign is not changed."""
+    """Return `a_from_c` for `a_from_b` and `b_from_c`; the quaternion has the product's sign."""
     turn = quaternions.unit(first.rotation)
     x, y, z = quaternions.rotate(turn, second.translation)
     tx, ty, tz = first.translation
@@ -270,7 +270,7 @@ def canonical(pose: Transform) -> Transform:
 
 
 def distance(pose: Transform) -> float:
-    """Return the distance to the child frame's origin in the plane, metres."""
+    """Return the distance between the origins of parent and child frame, metres."""
     return math.hypot(*pose.translation)
 
 
@@ -290,7 +290,7 @@ def heading(transform: Transform) -> float:
 
 
 def bearing(transform: Transform) -> float:
-    """Return the direction to the child frame's origin in the plane, radians; 0 at distance 0."""
+    """Return the yaw from the parent's x axis to the child's origin, radians; 0 at distance 0."""
     return math.atan2(transform.translation.y, transform.translation.x)
 
 

@@ -121,7 +121,7 @@ class VectorRows:
 
 
 class QuaternionRows:
-    """Many quaternions of any length as rows w, x, y, z, x, y of an array, with views."""
+    """Many quaternions of any length as rows w, x, y, z, x, y of an array, and views of rows."""
 
     __slots__ = ("first", "repeat", "rows", "w", "wxyz", "xyz", "yzx", "zxy")
 
