@@ -78,7 +78,7 @@ class Shortened(NamedTuple):
 
 
 def _share(sizes: list[int], room: int) -> int:
-    """Return the maximum number of samples per frame for `room` samples in total; at least 2."""
+    """Return the most samples per frame, at least 2, for at most `room` samples in total."""
     left = len(sizes)
     for size in sorted(sizes):
         if size * left > room:

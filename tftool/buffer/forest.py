@@ -138,7 +138,7 @@ class Walk:
         self.above: list[int] = []
 
     def close(self, ended: int) -> "Walk":
-        """Finish the search: record the outcome, and remove frames above the common ancestor."""
+        """Finish the search with the outcome `ended`; remove frames above the common ancestor."""
         self.ended = ended
         if ended == ARRIVED:
             up, down = self.up, self.down

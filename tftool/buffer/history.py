@@ -393,7 +393,7 @@ class History(Fields):
     # Insertion
 
     def insert(self, stamp: Stamp, origin: int, pose: Any, validated: bool = False) -> int:
-        """Insert one sample, and prune the samples that are then too old.
+        """Prune the samples that are older than the limit, and insert one sample.
 
         Args:
             stamp: Nanoseconds.
@@ -648,8 +648,8 @@ class History(Fields):
             until: The last stamp to share, nanoseconds.
 
         Returns:
-            Whether the samples could be shared. False if samples were pruned, or if their parents
-            or authorities differ.
+            Whether the samples could be shared. False without samples, after pruning, or if the
+            samples have different parents or authorities.
         """
         if self.origins is not None or self.start or not self.count:
             return False

@@ -202,7 +202,7 @@ def denormalized(child: str, authority: str, rotation: Iterable[float]) -> str:
 
 
 def old_data(child: str, stamp: Stamp, authority: str) -> str:
-    """Return the log line for a sample older than every sample the buffer keeps."""
+    """Return the log line for a sample that is too old for the buffer's `cache_time`."""
     return (
         f"TF_OLD_DATA ignoring data from the past for frame {child} at time {display(stamp)} "
         f"according to authority {authority}\nPossible reasons are listed at "

@@ -202,7 +202,7 @@ def twist(
 
 
 def _difference(first: Transform, last: Transform, duration: float) -> tuple[Vector3, Vector3]:
-    """Return the mean linear and angular velocity between two poses of a frame."""
+    """Return mean linear and angular velocity between two poses, in the poses' parent frame."""
     if duration == 0.0:
         unknown = Vector3(math.nan, math.nan, math.nan)
         return unknown, unknown
@@ -240,7 +240,7 @@ class Solver:
         self._kept = 0
 
     def pose(self, target: str, source: str, time: Stamp) -> tuple[Stamp, Sample]:
-        """Return the time of a lookup and the pose of source in target, by walking the trees.
+        """Search the path; return the time of the result, and the pose of source in target.
 
         Raises:
             TransformException: As in `Buffer.lookup_transform`.
@@ -276,7 +276,7 @@ class Solver:
         return time, path, self._remember(target_number, source_number, walk, path)
 
     def latest_common(self, target: int, source: int) -> Stamp:
-        """Return the newest time at which every link between two frames has data.
+        """Return the newest time with data for all links between two frames; 0 if all are static.
 
         Raises:
             TransformException: If no chain joins the frames, or a chain contains a loop.

@@ -92,8 +92,7 @@ class Series:
     def worst_delay_since(self, stamp: Stamp) -> float | None:
         """Return the greatest delay of the messages that arrived after a time, seconds.
 
-        If no message arrived after that time, return the delay of the newest message. Return None
-        if there is no message at all.
+        If no message arrived after that time, return `latest_delay`, which can be None.
         """
         newest = takewhile(
             lambda one: one[0] > stamp,
@@ -103,9 +102,7 @@ class Series:
 
     @property
     def maximum_delay(self) -> float | None:
-        """Greatest delay from stamp to arrival, seconds; negative if all stamps are in the
-        future.
-        """
+        """Greatest delay from stamp to arrival, seconds; None if all messages are static."""
         return max(self._delays) if self._delays else None
 
     @property

@@ -183,8 +183,8 @@ class Buckets:
     """Index that divides the time from the first to the last sample into short, equal buckets.
 
     For times in random order, two loads and a comparison per time replace a binary search. A
-    bucket spans a power of two of nanoseconds and at most half the distance between samples, so
-    that one comparison is nearly always enough.
+    bucket spans a power of two of nanoseconds and at most half the mean time between samples,
+    so that one comparison is nearly always enough.
     """
 
     __slots__ = ("_before", "_next", "_oldest", "_shift", "_stamps", "_steps")

@@ -184,7 +184,7 @@ class _Batch:
                 raise
 
     def fill(self, start: int, complete: bool) -> None:
-        """Look up one chunk of times, beginning with row `start`."""
+        """Look up one chunk of times, beginning with row `start`; for `complete`, see `run`."""
         rows = slice(start, start + self.rows_at_once)
         times = self.times[rows]
         self.stamps[rows] = times
