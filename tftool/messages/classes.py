@@ -194,7 +194,7 @@ def recast(message: Any, kind: type[Message]) -> Any:
 
 
 def completed(message: Any, kind: type[Message]) -> Any:
-    """Return a copy of a message as an object of `kind`, whose additional fields get defaults."""
+    """Return a message as an object of `kind`; fields that the message lacks get defaults."""
     if type(message) is kind:
         return message
     made = kind()

@@ -38,7 +38,7 @@ PLACEHOLDER: Final = FieldDefinition("structure_needs_at_least_one_member", "uin
 
 
 def type_hash(schema: Schema, full: str) -> str:
-    """Return the hash of a message, a service, or a part of a service or action.
+    """Return the type hash (RIHS01) of a message, a service, or a part of a service or action.
 
     Args:
         schema: Schema with the definition.
@@ -46,7 +46,7 @@ def type_hash(schema: Schema, full: str) -> str:
             "turtlesim/action/RotateAbsolute_SendGoal".
 
     Raises:
-        InputError: If there is no structure with that name, or the definition of a part is missing.
+        InputError: If there is no structure with that name, or a nested type is not defined.
     """
     described: dict[str, dict[str, Any]] = {}
     _describe(schema, schema.structure(full), described)

@@ -91,7 +91,7 @@ class Layout:
         return order
 
     def padding(self, position: int, size: int) -> int:
-        """Return the number of padding bytes before a number at an offset after the header."""
+        """Return the padding before a number of `size` bytes, `position` bytes after the header."""
         return -position % min(size, self.alignment)
 
 

@@ -143,7 +143,7 @@ class Schema:
 
         Returns:
             Whether the definitions were added. False if another definition of a structure was
-            parsed before, for example if two releases recorded into one file.
+            parsed before, for example if a file has messages of two ROS releases.
 
         Raises:
             InputError: If a definition is wrong, or in IDL.
