@@ -116,7 +116,7 @@ class MeshFolders:
             raise MeshRefused(f"'{path.name}' cannot be read: {error.strerror}.") from error
 
     def _place(self, name: str) -> tuple[Path, str]:
-        """Return the folder of a mesh in the description, and the mesh's path in this folder."""
+        """Split a mesh's name into the folder to search, and the mesh's path in this folder."""
         match = _PACKAGE.fullmatch(name)
         if match:
             package = self._package(match[1])

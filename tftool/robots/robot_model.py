@@ -217,9 +217,9 @@ class Robot:
         """Return a buffer with the frames of all links.
 
         Args:
-            given: Positions by joint (see `positions`), or None: all poses are then static. With
-                joint states, moved links have samples at the stamps of the states, and links of
-                other movable joints have no samples.
+            given: Positions by joint (see `positions`), or None for default positions: all poses
+                are static. With joint states, moved links have samples at the stamps of the
+                states, and links of other movable joints have no samples.
 
         Raises:
             UsageError: See `positions`.
@@ -308,7 +308,7 @@ def load_urdf(path: str | Path, arguments: Mapping[str, str] | None = None) -> R
 
 
 def set_still(buffer: Buffer, joint: RobotJoint, position: float = 0.0, prefix: str = "") -> None:
-    """Insert a static transform from a joint's parent to the joint's child into a buffer.
+    """Insert the pose of a joint's child in its parent into a buffer, as a static transform.
 
     Args:
         buffer: The buffer.

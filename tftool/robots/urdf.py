@@ -51,16 +51,16 @@ _DECLARATION = re.compile(r"\s*<\?xml\b[^<>]*>")
 def load_description(
     path: str | Path, arguments: Mapping[str, str] | None = None, *, plain: bool = False
 ) -> RobotDescription:
-    """Read a URDF file; if its name ends in .xacro, expand xacro first.
+    """Read a URDF file; expand xacro if the file contains xacro and its name ends in .xacro.
 
     Args:
         path: The file.
-        arguments: Values of xacro arguments by name. A xacro file can
-            evaluate Python expressions: do not expand files from strangers.
+        arguments: Values of xacro arguments by name. A xacro file can evaluate Python
+            expressions: do not expand files from strangers.
         plain: Whether to raise an error for a file that contains xacro, instead of expanding it.
 
     Raises:
-        InputError: If the file cannot be read, or contains xacro and is not named .xacro.
+        InputError: If the file cannot be read, or contains xacro that must not be expanded.
         DescriptionError: If the description has mistakes; the error lists all mistakes with line
             and column.
         UsageError: If the file contains xacro and the extra `xacro` is not installed, or if
@@ -292,7 +292,7 @@ class _Reader:
             self.mistakes = before
 
     def _attribute(self, element: _Element, attribute: str) -> tuple[int, int, int]:
-        """Return line, column and width of an attribute, or of the tag if there is no attribute."""
+        """Return line, column and width of an attribute, or of the tag of a missing attribute."""
         wanted = re.compile(rf"(?<![\w:]){re.escape(attribute)}\s*=\s*(\"[^\"]*\"|'[^']*')")
         column = element.column
         for line in range(element.line, min(element.line + 20, len(self.lines))):
