@@ -171,15 +171,15 @@ class Growing:
         self.first = _NEVER
 
     def make_room(self, count: int, share: float = 1.0, freely: int = 0) -> int:
-        """Enlarge the columns of the edge by `count` rows.
+        """Enlarge the columns of the edge, if `count` more rows do not fit.
 
         Args:
-            count: Number of rows to add.
+            count: Number of rows that must be free.
             share: Fraction of the recording read so far, 0 to 1.
             freely: Number of rows that may be allocated regardless of `share`.
 
         Returns:
-            Number of rows that were added.
+            Number of rows that were allocated, 0 if `count` rows were free.
         """
         there, before = self.state[_COUNT], len(self.messages)
         needed = there + count
@@ -205,7 +205,7 @@ class Growing:
         """Append rows for transforms, and return views of the rows for the caller to fill.
 
         Args:
-            first: Number of the first message, and the index of the transform in this message.
+            first: Number of the first message, and index of the first transform in this message.
             last: Number of the last message.
             count: Number of transforms.
             share: Fraction of the recording read so far, 0 to 1.
@@ -270,7 +270,7 @@ class Table:
         return min(messages / self._expected, 1.0) if self._expected else 1.0
 
     def edge(self, parent: str, child: str, static: bool, count: int) -> "Growing | None":
-        """Return an edge's columns for `count` transforms; None if there are too many edges."""
+        """Return the columns of an edge with `count` new transforms; None above `MOST_EDGES`."""
         plain = parent.removeprefix("/"), child.removeprefix("/")
         key = (*plain, static)
         edge = self._edges.get(key)
@@ -285,11 +285,11 @@ class Table:
 
     @property
     def spare(self) -> int:
-        """Return how many more edges the table may have."""
+        """Return the number of edges that can still be added to the table."""
         return MOST_EDGES - len(self._edges)
 
     def make_room(self, edge: Growing, message: int) -> None:
-        """Add a row for one more transform of an edge; `message` is the number of its message."""
+        """Allocate a row, if none is free, for an edge's next transform, in message `message`."""
         self._freely -= edge.make_room(1, self.share(message + 1), max(self._freely, 0))
 
     def leave_out(self, count: int) -> None:

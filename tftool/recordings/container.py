@@ -283,7 +283,7 @@ class Piece:
 
 
 def _begin_alike(count: int) -> bool:
-    """Whether the first `count` bytes of the two buffers (written, read back) are equal."""
+    """Whether the first `count` bytes of `_one` (written) and `_other` (read back) are equal."""
     # Compare whole buffers if possible, which makes no copy.
     return _one == _other if count == _STEP else _one[:count] == _other[:count]
 

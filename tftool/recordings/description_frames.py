@@ -185,7 +185,7 @@ _MOST_DESCRIPTIONS: Final = 8
 
 @dataclass(frozen=True, slots=True)
 class DescribedFrames:
-    """Names of the frames that were added from a robot description.
+    """Names of the frames that were added from a robot description, or could not be added.
 
     Attributes:
         still: Frames that were added with a static transform.
@@ -243,7 +243,7 @@ def read_description(source: Recorded, topic: RecordedTopic) -> Robot | None:
 
 
 def prefix_of(robot: Robot, frames: Collection[str]) -> str:
-    """Guess the `frame_prefix` of robot_state_publisher from names of links and frames."""
+    """Guess robot_state_publisher's `frame_prefix` from frame names; "" if no prefix fits."""
     known = frozenset(frames)
     if not known or any(link in known for link in robot.links):
         return ""

@@ -236,7 +236,7 @@ def _meant(path: Path) -> str:
 
 
 def find(word: str) -> Found:
-    """Return the source that a path or glob names.
+    """Return the files that a path, a glob or NAME=FILE names, with their kind.
 
     Raises:
         InputError: If the file is missing, is of an unknown kind, or cannot be read.

@@ -518,8 +518,8 @@ def open_recording(
             `load_urdf`.
         cache: Cache of the transforms of large recordings; None for no cache.
         with_odometry: Whether Odometry, PoseStamped and PoseWithCovarianceStamped messages are
-            used as transforms, for frames without other transforms. The topic of a pose is used
-            as its frame's name.
+            used as transforms, for frames without other transforms. The name of a pose's topic
+            is the name of its frame.
         tf_topics: Topics of transforms to read, such as "/r1/tf", "/r2/tf", each with the static
             topic of its namespace; empty for all. Frame names that several of these robots use
             get the namespace as prefix.

@@ -68,7 +68,7 @@ class RollingRecording:
         messages: Number of received messages; once a recording with a ring buffer is closed, the
             number of written messages.
         transforms: Number of transforms in the messages that `messages` counts.
-        size: Number of bytes written, or stored in the ring buffer.
+        size: Number of bytes written, plus the bytes in the ring buffer.
         files: Names of the completed files, in order.
     """
 
@@ -156,7 +156,7 @@ class RollingRecording:
 
     @property
     def size(self) -> int:
-        """Number of bytes written so far, or stored in the ring buffer."""
+        """Number of bytes written so far, plus the bytes in the ring buffer."""
         return self._written + self._held_bytes + (self._writer.size if self._writer else 0)
 
     def _place(self, number: int) -> Path:
@@ -193,7 +193,7 @@ class RollingRecording:
             self._keep_static(channel, payload)
 
     def _forget(self, now: Stamp) -> None:
-        """Drop messages that are older than the ring buffer's duration, or exceed its size."""
+        """Drop messages older than the ring buffer's duration, and the oldest above its size."""
         held, oldest = self._held, now - self._limits.ring
         while held and (held[0].log_time < oldest or self._held_bytes > MOST_HELD):
             self._held_bytes -= len(held.popleft().payload)
@@ -276,7 +276,7 @@ class RollingRecording:
         return self._writer
 
     def tick(self, now: Stamp) -> None:
-        """Write messages that have waited for a second.
+        """Write the buffered messages, if the last write was at least a second ago.
 
         The owner of the recording must call this function several times per second.
 

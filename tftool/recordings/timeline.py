@@ -222,7 +222,7 @@ class Timeline:
         return numbers[self._transforms.senders[self._order[places]]], names
 
     def message(self, place: int) -> list[Due]:
-        """Return the moving and the static transforms of message number `place`, separately."""
+        """Return the transforms in message number `place`: one `Due` per kind (moving, static)."""
         moment = int(self.moments[place])
         sender = self._transforms.senders[self._order[place]]
         publisher = self._transforms.publishers[int(sender)]
@@ -236,7 +236,7 @@ class Timeline:
         ]
 
     def known_at(self, moment: Stamp) -> list[Due]:
-        """Return the last transform of every child that was received up to a time.
+        """Return every child's last transform that was received up to the time `moment`.
 
         Static transforms received later are included, because they are valid at all times.
         """

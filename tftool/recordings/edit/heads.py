@@ -125,7 +125,7 @@ class StaticHeads:
             ]
 
     def write(self, number: int, output: EditedFile, start: Stamp) -> None:
-        """Write the latest value of every static transform to a file, one message per channel.
+        """Write every static transform, as of the end of the file, in one message per channel.
 
         Args:
             number: Index of the output file, from 0.

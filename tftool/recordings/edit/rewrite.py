@@ -385,7 +385,7 @@ class _Job:
         return max(0, (log_time - self._start) // self._edits.split_every)
 
     def _output(self, number: int, part: Path, start: Stamp | None = None) -> EditedFile:
-        """Return the output file with a number; start a new file with its static transforms."""
+        """Return the output file `number`; a new file begins with the static transforms."""
         found = self._outputs.get(number)
         if found is not None:
             return found

@@ -141,7 +141,7 @@ class Kinds:
         return found, np.concatenate(rest) if rest else which[:0]
 
     def _add(self, known: list[MessageKind], payload: bytes) -> bool:
-        """Add a kind whose example is `payload`; return False if the message is unusual."""
+        """Add a kind to `known` with the example `payload`; return False for an unusual message."""
         if len(known) >= _MOST_KINDS:
             return False
         try:

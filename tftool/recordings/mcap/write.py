@@ -320,7 +320,7 @@ class McapWriter(ChunkedWriter):
         self._chunks.append(entry.record())
 
     def end_block(self, chunk: Chunk) -> None:
-        """Write the current chunk in place of `chunk`, with its compression and CRC setting."""
+        """Write the current chunk in place of `chunk`, with equal compression and CRC setting."""
         before = self.method, self._pack, self._with_chunk_crc
         try:
             if chunk.method != self.method:
@@ -427,7 +427,7 @@ class McapWriter(ChunkedWriter):
         self._put(end + summary + MCAP_MAGIC)
 
     def rescue(self) -> bool:
-        """Complete the file after the last whole chunk, if the disk is full, and close the file.
+        """Cut the file after the last whole chunk, write the summary if it fits, close the file.
 
         Returns:
             Whether there was space for the summary.

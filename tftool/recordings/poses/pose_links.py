@@ -80,7 +80,7 @@ class PoseFile:
         return self.default if self.options.frames is None else self.options.pair()
 
     def link(self, width: int = 7) -> PoseLink:
-        """Return an empty link between the two frames of the file, to which poses are appended."""
+        """Return an empty link between the file's two frames, for poses of `width` numbers each."""
         return PoseLink(*self.frames, width=width)
 
     def open(self) -> BinaryIO:

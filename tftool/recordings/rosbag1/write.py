@@ -114,7 +114,7 @@ class Rosbag1Writer(ChunkedWriter):
         return number
 
     def _add_connection(self, number: int, topic: bytes, header: bytes) -> None:
-        """Register a connection from the topic, and the connection header of the publisher."""
+        """Register a connection, given its topic and the publisher's connection header."""
         head = {"op": CONNECTION, "conn": U32.pack(number), "topic": topic}
         self._channel_records[number] = record(head, header)
 
@@ -251,7 +251,7 @@ class Rosbag1Writer(ChunkedWriter):
             self._file.close()
 
     def _head(self, place: int) -> bytes:
-        """Return the bag's header record, padded to its fixed size."""
+        """Return the bag's header record, padded to its fixed size; the index begins at `place`."""
         fields = packed_fields(
             {
                 "op": BAG,

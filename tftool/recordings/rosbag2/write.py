@@ -227,5 +227,5 @@ class FolderWriter:
         write_metadata(self._folder, metadata_text(self._storage, [facts], topics))
 
     def abandon(self) -> None:
-        """Close the file without completing it."""
+        """Close the incomplete file, and write no metadata."""
         self._inner.abandon()
