@@ -29,7 +29,7 @@ _RADIAN = 0.5
 
 
 def severity_of(model: Model, track: Track, hit: Hit, limits: Limits) -> Severity | None:
-    """Return NOTE for a possible conflict, WARNING for a likely or harmless one, None for an error.
+    """Return NOTE for a possible conflict, WARNING if likely or harmless, else None (the default).
 
     A harmless conflict is between two nearly equal poses, or concerns a minor part of the robot,
     such as a wheel.

@@ -48,7 +48,8 @@ class Explanation:
         asked: Log time at which the lookup is made, nanoseconds.
         because: Reason for the log time `asked`, such as "when /scan of that stamp arrived"; empty
             if the user gave the time.
-        after: Time from the stamp to the lookup, on the clock of the stamps, nanoseconds.
+        after: Latency of the message with that stamp, nanoseconds; 0 without such a message. None
+            for the latest time, and if the user gave the log time.
         available: Whether the lookup succeeds.
         exception: Name of tf2's exception; empty if the lookup succeeds.
         text: Text of tf2's error.
@@ -64,8 +65,7 @@ class Explanation:
         useless: Sentences about common attempts that do not help.
         failed: Fraction of the listening time in which the same lookup would have failed; None
             unless the source is a session.
-        in_whole: Whether the lookup succeeds with all samples of the recording, as in
-            `tftool echo`.
+        in_whole: Whether the lookup succeeds with all samples, as in `tftool echo`.
     """
 
     target: str

@@ -119,7 +119,7 @@ def is_navsat_output(heard: Heard) -> bool:
 def _severity(
     model: Model, name: str, heards: Iterable[Heard], fixes: Sequence[Fix]
 ) -> Severity | None:
-    """Return the severity of a finding about a frame that tf lacks; None for an error."""
+    """Return the severity of a finding about a frame that tf lacks; None for the default, ERROR."""
     if any(last_part(heard.type) in PLACED for heard in heards):
         return None if has_base(model) else Severity.WARNING
     # A recording for a localiser has goals and reference poses in its map.

@@ -58,7 +58,7 @@ class Remedy:
         kind: "timeout", "rate", "cache", "skip", "name", "join", "publisher" or "clock".
         text: The remedy as a sentence.
         command: Shell command of the remedy; empty for a remedy without a command.
-        least: Smallest sufficient timeout, period or cache time, nanoseconds; None for other kinds.
+        least: Minimum timeout or cache time, or maximum period, nanoseconds; None for other kinds.
         advised: Recommended value instead of `least`, nanoseconds.
         possible: Whether the remedy can make the lookup succeed.
     """
@@ -208,7 +208,7 @@ def no_join(known: TraceResult) -> Reason:
 
 
 def works(known: TraceResult) -> Reason:
-    """Return the reason for a success, or a fault with which the lookup may fail in a node."""
+    """Return the reason for a success, or a fault with which another listener's lookup may fail."""
     model, question = known.trace.model, known.trace.question
     for frame in (question.source, question.target):
         tree = model.tree_of.get(frame)

@@ -142,7 +142,7 @@ def _between(path: TransformArray, begin: int, end: int) -> TransformArray:
 
 
 def _pairs(model: "Model") -> Iterator[tuple[TransformArray, TransformArray, Transform]]:
-    """Yield (motion, motion, published mount) for each pair of frames on one rigid body.
+    """Yield (body's motion, sensor's motion, published mount) for each sensor on a moving body.
 
     The two motions were recorded independently of each other.
     """

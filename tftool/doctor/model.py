@@ -325,7 +325,7 @@ class Model:
         return climbed(frame, self.parents.get)
 
     def path(self, frame: str, other: str) -> list[Track] | None:
-        """Return the edges between two frames; None if the frames are not connected."""
+        """Return the edges on the path from `frame` to `other`; None if there is no path."""
         if frame not in self.frames or other not in self.frames:
             return None
         legs = up_to_join(frame, other, self.above)

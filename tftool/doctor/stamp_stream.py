@@ -146,7 +146,7 @@ class Track(Stream):
 
     @cached_property
     def records(self) -> Stamps:
-        """Rows of all laps, int64, shape (m, 8): a stamp and the bits of a pose (7 doubles)."""
+        """Stamp and bits of the pose (7 doubles) of each sample of all laps, shape (m, 8)."""
         return self.in_order(self._edge.records)
 
     @cached_property
@@ -356,7 +356,7 @@ class Heard(Stream):
     Attributes:
         topic: Name of the topic.
         type: Type of the messages.
-        frame: Frame name in the headers, including a leading slash.
+        frame: Frame name in the headers, with the leading slash if it has one.
     """
 
     def __init__(self, headers: Headers, number: int) -> None:
