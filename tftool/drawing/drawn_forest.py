@@ -86,7 +86,7 @@ def grow(snapshot: Snapshot, *, most: int | None = None) -> Forest:
 
 
 def _walk(roots: list[str], children: dict[str, list[str]]) -> list[str]:
-    """Return every frame below the roots once, level by level, even if there are loops."""
+    """Return the roots, then all frames below the roots, level by level; each frame once."""
     order = list(roots)
     for name in order:  # grows while it is walked
         order.extend(children[name])

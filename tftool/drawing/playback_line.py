@@ -167,7 +167,7 @@ def _bar(playback: Playback, room: int, ascii_only: bool, palette: theme.Palette
 
 
 def _place(moment: Duration, playback: Playback, room: int) -> int:
-    """Return the column of a moment on a timeline of `room` cells."""
+    """Return the column of the position `moment`, nanoseconds, on a timeline of `room` cells."""
     share = moment / playback.total if playback.total > 0 else 1.0
     return max(0, min(room - 1, int(room * share)))
 

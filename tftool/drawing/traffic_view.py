@@ -228,7 +228,7 @@ BAR = 8
 
 
 def bar(rate: float, fastest: float, cells: int = BAR, *, ascii_only: bool) -> str:
-    """Return a bar of at most `cells` cells, whose length is proportional to `rate`."""
+    """Return a bar whose length is proportional to `rate`: `cells` cells for the rate `fastest`."""
     if fastest <= 0.0 or rate <= 0.0:
         return ""
     return ("#" if ascii_only else "▇") * max(1, round(cells * rate / fastest))

@@ -83,7 +83,7 @@ def _pack(
     *,
     mirrored: bool,
 ) -> list[float]:
-    """Move each subtree to one side as far as its neighbours allow; return the items' centres."""
+    """Pack subtrees to the left, or to the right if `mirrored`; return the items' centres."""
     offsets = [0.0] * len(items)
     outlines: dict[int, _Outline] = {}
     for index in reversed(order):
