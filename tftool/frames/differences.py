@@ -116,7 +116,7 @@ class Displacement:
         worst_at: Stamp in A of the largest difference relative to the tolerance; None if static.
         moments: Number of times at which the poses were compared.
         moved_mm: Displacement x y z along the parent axes in A, if static in both sets; else None.
-        turned_deg: Rotation as roll pitch yaw, if static in both sets; else None.
+        turned_deg: Rotation from A to B as roll pitch yaw, if static in both sets; else None.
     """
 
     millimetres: float

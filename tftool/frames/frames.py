@@ -53,7 +53,7 @@ class Frames:
             kind: Kind of the source.
             name: Name of the source.
             buffer: Buffer with all frames; None for a recording.
-            span: First and last stamp; None for static transforms.
+            span: First and last stamp; None if all transforms are static.
             recording: Recording that was read, if any.
             robot: Robot of the description, if any.
             log: Log of all transforms in order of arrival, if any.
@@ -117,12 +117,12 @@ class Frames:
 
     @property
     def start(self) -> Stamp | None:
-        """First stamp, nanoseconds; None for static transforms."""
+        """First stamp, nanoseconds; None if all transforms are static."""
         return self._recording.start if self._recording is not None else self._ends[0]
 
     @property
     def end(self) -> Stamp | None:
-        """Last stamp, nanoseconds; None for static transforms."""
+        """Last stamp, nanoseconds; None if all transforms are static."""
         return self._recording.end if self._recording is not None else self._ends[1]
 
     @property
@@ -131,7 +131,7 @@ class Frames:
 
     @property
     def span(self) -> tuple[Stamp, Stamp]:
-        """First and last stamp, nanoseconds; 0 and 0 for static transforms."""
+        """First and last stamp, nanoseconds; 0 and 0 if all transforms are static."""
         return self.start or LATEST, self.end or LATEST
 
     @property
@@ -151,7 +151,7 @@ class Frames:
         return tuple(recording_notes(self._recording))
 
     def at(self, time: float) -> Stamp:
-        """Return the stamp `time` seconds after the start; 0 (latest) for static transforms."""
+        """Return the stamp `time` seconds after the start; 0 (latest) if all frames are static."""
         start = self.start
         return LATEST if start is None else start + seconds(time)
 

@@ -166,7 +166,7 @@ def links_between(buffer: Buffer, target: str, source: str) -> list[str]:
 
 
 def fastest(buffer: Buffer, links: list[str]) -> tuple[str, Stamps] | None:
-    """Return the frame with the shortest sample period, and its stamps; None for static frames."""
+    """Return the frame with the shortest sample period, and its stamps; None if all are static."""
     found: tuple[float, int, str, Stamps] | None = None
     for frame in links:
         held = buffer.samples(frame)

@@ -298,7 +298,7 @@ def _columns(
 
 
 def _jumps(angles: Floats) -> "np.ndarray":
-    """Return the indices at which an angle wraps around from half a turn to minus half a turn."""
+    """Return a mask of the steps at which an angle, in degrees, wraps around at ±180°."""
     with np.errstate(invalid="ignore"):
         found: np.ndarray = np.abs(np.diff(angles)) > 180.0
     return found

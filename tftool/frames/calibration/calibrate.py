@@ -105,8 +105,8 @@ class Calibration:
         offset_interval95: Half-width of the 95 % interval of `clock_offset`, seconds.
         drift_ppm: Change of `clock_offset`, microseconds per second; None for a short recording.
         clock: Correlation from which the offset was measured.
-        halves_differ: Distance (metres) and angle (degrees) between the mounts from the first and
-            the second half of the recording.
+        halves_differ: Distance (metres) and angle (degrees) between the mounts from both halves
+            of the recording; None if a half has too few poses.
         unseen: Undetermined parts of the mount, some of x, y, z, roll, pitch and yaw.
         unseen_direction: Undetermined direction, a unit vector in moving_a, if it is oblique to the
             x, y and z axes; else None.

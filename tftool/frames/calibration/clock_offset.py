@@ -78,10 +78,10 @@ def clock_offset(a: TransformArray | Frames, b: TransformArray | Frames) -> Cloc
         a: The first motion: poses over time, or frames that form a single chain.
         b: The second motion, on any clock.
 
-    The two moving frames are on one rigid body; each motion may be in any fixed frame. The offset
-    may be of any size.
+    The moving frames are on one rigid body. The fixed frames and the size of the offset are free.
 
     Raises:
+        InputError: If the frames of an input are not a single chain.
         CalibrationRefused: If the rotations do not agree, the offset is ambiguous, or one motion
             has too few poses.
     """
