@@ -204,7 +204,7 @@ class Node(Resident):
     # Settings
 
     def declare_parameter(self, name: str, default: Value) -> Value:
-        """Declare a parameter; return `default`, or the value if already declared."""
+        """Declare a parameter; return `default`, or the value if declared before."""
         return self.parameters.declare(name, default)
 
     def get_parameter(self, name: str) -> Value:

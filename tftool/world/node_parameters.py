@@ -86,7 +86,7 @@ class Parameters:
         self._listeners: list[Callable[[str, Value], object]] = []
 
     def declare(self, name: str, default: Value) -> Value:
-        """Declare a parameter of the type of `default`; return `default`, or an earlier value."""
+        """Declare a parameter of this type; return `default`, or the value if declared before."""
         return self._values.setdefault(name, default)
 
     def __getitem__(self, name: str) -> Value:

@@ -39,7 +39,7 @@ _LEAVE_SCREEN = (
 
 
 class Overdue(BaseException):
-    """Exception raised inside a node that blocks the loop beyond the end of the run.
+    """Exception raised inside a node that blocks the event loop for too long.
 
     The base class is `BaseException`, because a node could catch every `Exception`.
     """

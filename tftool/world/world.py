@@ -103,7 +103,7 @@ class World:
         endpoints: Publishers and subscriptions of the nodes of all processes.
         clients: Clients of services, of the nodes of all processes.
         far_nodes: Names of the nodes of other processes, in alphabetical order.
-        failure: Error that names the node whose exception ended the run; None before.
+        failure: Error that names the node whose exception ended the run; None if no node failed.
     """
 
     def __init__(
@@ -485,7 +485,7 @@ class World:
         return accepted
 
     def static_transforms(self, authority: str | None = None) -> tuple[TransformStamped, ...]:
-        """Return the static transforms of one sender in this process, or of all processes."""
+        """Return the static transforms of one sender in this process (None: of all processes)."""
         if authority is not None:
             return tuple(self._statics.get(authority, {}).values())
         held = [self._far_statics, *self._statics.values()]

@@ -90,7 +90,7 @@ class TopicFeed:
             self._read(moment)
 
     def next_due(self) -> Stamp | None:
-        """Return the time of the next message in nanoseconds; None at the end of the recording."""
+        """Return the playback time of the next message, nanoseconds; None at the end."""
         return self._waiting[0][0] if self._waiting else None
 
     def close(self) -> None:

@@ -315,7 +315,7 @@ class MovingRobot(RobotStatePublisher):
                 (without limits, -1 and 1); "steps" to the middle, the upper limit, the middle and
                 the lower limit, a quarter of a cycle each; or "recorded", from `recording`.
             recording: Joint states for the motion "recorded".
-            cycle: Nanoseconds until the first joint's motion repeats, after both limits. Each
+            cycle: Nanoseconds in which the first joint goes to both limits and back. Each
                 further joint takes a little longer, so that no two joints move alike.
             period: Nanoseconds between two joint states.
             frame_prefix: Prefix of every frame's name.

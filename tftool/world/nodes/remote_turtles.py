@@ -92,7 +92,7 @@ class FarTurtles(Node):
         return MappingProxyType(there)
 
     async def run(self) -> None:
-        """Request background and strokes from the simulator, regularly and after changes."""
+        """Request background and strokes regularly; strokes also after the picture changed."""
         asked, drawn = -RESTING, -1
         async for now in self.every(PERIOD, immediately=True):
             simulator = self._simulator()

@@ -37,7 +37,7 @@ class DrawSquare(Node):
     """Node that drives a turtle along squares: forward, stop, turn, stop, and so on.
 
     Attributes:
-        state: Present state.
+        state: Present part of the motion, such as `State.TURN`.
         goal: Pose to reach next; None before the turtle's first pose.
     """
 

@@ -386,7 +386,7 @@ class Discovery:
         return hide
 
     def show_endpoint(self, node: str, role: str, gid: bytes) -> Callable[[], None]:
-        """Announce an endpoint of a node of this process; return a function that withdraws it."""
+        """Announce an endpoint of a node of this process; return a function to end this."""
         which = 1 if role == PUBLISHER else 0
         self._own.setdefault(node, (set(), set()))[which].add(gid)
         self._say()

@@ -236,10 +236,10 @@ def message_data(frame: bytes) -> tuple[int, bytes] | None:
 
 
 def server_time(frame: bytes) -> Stamp | None:
-    """Return the time of a message with the server's time; None for other binary messages.
+    """Return the server's time from a binary message; None for messages of other kinds.
 
     Raises:
-        ProtocolError: If the message is cut off, or its seconds exceed 32 bits.
+        ProtocolError: If the message has a wrong length, or the time is too large for ROS.
     """
     if not frame or frame[0] != 2:
         return None
