@@ -173,7 +173,7 @@ def _nearest(wanted: Iterable[str], known: Collection[str]) -> str:
 
 @dataclass(frozen=True, slots=True)
 class FrameFacts:
-    """Facts about a frame; if `exists` is false, the other facts are None.
+    """Facts about a frame; parent, static and broadcaster are None for an unknown frame.
 
     Attributes:
         exists: Whether the frame is known.

@@ -342,7 +342,7 @@ class _ScenarioReader:
         return tuple(one for several in reading.whole(read) for one in several)
 
     def expectation(self, node: Node, reading: Reading) -> tuple[Expectation, ...]:
-        """Read an expectation; return one `Expectation` for each time of judging."""
+        """Read an expectation; return one `Expectation` for each of its conditions of time."""
         # Imported here, because most commands judge no expectations.
         from tftool.scenario.questions import SUBJECTS
 

@@ -278,7 +278,7 @@ class SpeedOf(Motion):
 
 @declare(SUBJECTS, "turn_rate", form=range_form(TURN_RATE))
 class TurnRateOf(Motion):
-    """Question for the turn rate of a frame about the z axis, counter-clockwise."""
+    """Question for the turn rate of a frame about the z axis of frame `target`."""
 
     def answer(self, scene: ScenarioWorld) -> float:
         """Return the turn rate in rad/s."""
@@ -417,7 +417,7 @@ class PoseOf(Subject):
     short="text",
 )
 class Logged(Subject):
-    """Question for the number of log messages with a text, optionally of one node or level."""
+    """Question for the number of log messages that contain a text, of any or one node and level."""
 
     text: str = reads(values.text)
     node: str | None = reads(values.name("a node"), None)
