@@ -26,7 +26,7 @@ def interpolate(pair: Pair, time: float) -> Pose:
 
     Args:
         pair: Stamp and pose of the first sample, then of the second: 16 numbers.
-        time: Nanoseconds, from the first stamp to the second.
+        time: Time of the result, nanoseconds, not outside the two stamps.
 
     Source:
         Shoemake, "Animating Rotation with Quaternion Curves", SIGGRAPH 1985.
