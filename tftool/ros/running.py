@@ -224,7 +224,7 @@ async def until(world: World, over: asyncio.Event, limit: Duration | None) -> No
 
 
 class Ending:
-    """Record of the program that has ended, with an event that is set at its end."""
+    """Callback for `on_exit`, which stores the ended program and sets the event `over`."""
 
     def __init__(self) -> None:
         self.program: Program | None = None

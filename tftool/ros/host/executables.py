@@ -92,7 +92,7 @@ class Asked:
         return self.take(name, default, lambda _: True, "true or false")
 
     def number(self, name: str, default: float) -> float:
-        """Remove a parameter with a finite number from `parameters` and return it; see `take`."""
+        """Remove a numeric parameter from `parameters` and return its finite value; see `take`."""
 
         def fits(value: Any) -> bool:
             return isinstance(value, int | float) and isfinite(value)

@@ -141,7 +141,7 @@ class Fiber:
             on_busy: Function called once, on the event loop's thread, when the code has not paused
                 for `patience` seconds. Its argument is the line of code that runs at that time.
             patience: Limit for `on_busy` in real seconds; None for `PATIENCE`.
-            give_up: Limit in real seconds for busy code in strict mode; None for `GIVE_UP`.
+            give_up: Real seconds until busy code is stopped in strict mode; None for `GIVE_UP`.
             clock: Clock of the world, which reports signals such as Ctrl-C at once. In strict mode
                 the event loop itself would notice a signal only after the code has paused.
         """

@@ -408,6 +408,6 @@ def imported_by(module: str) -> Sequence[str]:
 
 @cache
 def tagged() -> Mapping[str, ImportedName]:
-    """Return a mapping from each tag of XML and YAML launch files, such as "node", to a class."""
+    """Return a mapping from each tag of launch files, such as "node", to its `ImportedName`."""
     names = (one for names in table().values() for one in names.values())
     return {tag: one for one in names for tag in one.tags}

@@ -492,7 +492,7 @@ def look_behind(roots: Callable[[], Iterable[str]]) -> None:
 
 
 def import_fresh(module: str, root: Path) -> ModuleType:
-    """Import a user's module from the folder `root`; execute an imported module again.
+    """Import a user's module from the folder `root`; execute it even if it was imported before.
 
     Two programs that run the same module therefore share no global variables.
 

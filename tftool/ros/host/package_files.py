@@ -68,7 +68,7 @@ class Package:
         return self.path / "lib" / self.name / name
 
     def executable_at(self, path: Path) -> str | None:
-        """Return the name of the executable in the file `path`; None for any other file."""
+        """Return the name of the executable whose file is `path`; None if there is none."""
         if path.name in self.scripts and path == self.place_of_script(path.name):
             return path.name
         is_node = path == self.script_file(path.name) and b"rclpy" in path.read_bytes()

@@ -301,7 +301,7 @@ class Program(Node):
         self._count(1.0 / POLLS)
 
     def sleep(self, duration: Duration) -> None:
-        """Block the calling thread for nanoseconds of tftool's clock.
+        """Block the calling thread for `duration` nanoseconds of tftool's clock.
 
         Return at once if the program was asked to end.
         """

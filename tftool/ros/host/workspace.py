@@ -49,8 +49,8 @@ class ShareFolder:
         Args:
             source: Source folder of the package.
             below: Path, relative to `source`, of the folder whose entries are linked.
-            parents: Relative paths of folders to leave out. These are real folders, not links,
-                because files are installed into them.
+            parents: Paths, relative to `source`, of folders to leave out. These are real
+                folders, not links, because files are installed into them.
         """
         (self.path / below).mkdir(parents=True, exist_ok=True)
         there = source / below

@@ -128,7 +128,7 @@ class SetLogFolder(Action):
 
 
 class AppendEnvironmentVariable(Action):
-    """Action that appends a value to an environment variable, or prepends it."""
+    """Action that appends a value to an environment variable, or with `prepend` prepends it."""
 
     def __init__(
         self,
@@ -143,7 +143,7 @@ class AppendEnvironmentVariable(Action):
         self.prepend, self.separator = prepend, separator
 
     def execute(self, context: LaunchContext) -> Any:
-        """Append the value to the environment variable, or prepend it."""
+        """Append the value to the environment variable, or with `prepend` prepend it."""
         name, value = perform(context, self.name), perform(context, self.value)
         before = context.environment.get(name)
         parts = [value] if before is None else [before, value]

@@ -109,7 +109,7 @@ class LaunchContext:
         return self.launch
 
     def number_of(self, name: str) -> int:
-        """Return a name's number in this launch; names are numbered from 1 by their first use."""
+        """Return a name's number in this launch; numbers begin at 1, in the order of first use."""
         return self._numbers.setdefault(name, len(self._numbers) + 1)
 
     def perform_substitution(self, substitution: Any) -> str:

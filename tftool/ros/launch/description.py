@@ -89,7 +89,7 @@ class LaunchDescriptionSource:
         self.location = location
 
     def load(self, context: LaunchContext) -> tuple[LaunchDescription, Path | None]:
-        """Return the launch description and the path of its file; the path may be None."""
+        """Return (description, path of its file); the path is None for a description object."""
         if self.description is not None:
             return self.description, None
         path = Path(perform(context, self.location))

@@ -310,8 +310,8 @@ class Launch(Node):
         Args:
             service: Name of the service.
             node_name: Full name of the node that offers the service.
-            then: Function called with whether the service exists. During the call, the launch has
-                the arguments and environment of the present scope.
+            then: Function called with True if the service exists, else False. During this call, the
+                launch has the arguments and environment of the scope that requested the wait.
         """
 
         def is_settled() -> bool:
@@ -423,8 +423,8 @@ class Launch(Node):
     ) -> None:
         """Start a system command as a child process.
 
-        Simulated time stops until the command ends, at most for `LONGEST_HOLD` seconds, unless the
-        launch is `contained`.
+        Simulated time stops until the command ends, at most for `LONGEST_HOLD` real seconds, unless
+        the launch is `contained`.
 
         Args:
             action: Action that starts the command; events name this action.

@@ -106,7 +106,7 @@ class SignalProcess(ShutdownProcess):
     """Request to send a signal to the processes that a matcher function selects.
 
     Attributes:
-        signal: The signal.
+        signal: Signal to send, as a `signal.Signals`.
     """
 
     name = "launch.events.process.SignalProcess"

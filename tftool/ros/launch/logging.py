@@ -109,7 +109,7 @@ class LaunchConfig:
 
 
 def _take_variable(name: str, set_format: Callable[[str], None]) -> None:
-    """Call `set_format` with the value of an environment variable, or "default" without one."""
+    """Call `set_format` with an environment variable's value; "default" for an unset variable."""
     given = os.environ.get(name) or "default"
     try:
         set_format(given)

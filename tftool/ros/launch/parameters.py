@@ -204,7 +204,7 @@ def evaluate_parameters(context: LaunchContext, parameters: Iterable[Any]) -> tu
         A mapping from name to value for each mapping, and the path of each parameter file.
 
     Raises:
-        TypeError: If a parameter cannot have a resulting value.
+        TypeError: If a resulting value has a type that its parameter cannot have.
     """
     found: list[Any] = []
     for one in parameters:
@@ -227,7 +227,7 @@ def evaluate_parameter_dict(
         A mapping from name to value.
 
     Raises:
-        TypeError: If a parameter cannot have a resulting value.
+        TypeError: If a resulting value has a type that its parameter cannot have.
     """
     found: dict[str, Any] = {}
     for key, value in parameters.items():

@@ -34,7 +34,7 @@ def parsed(text: Any, where: str) -> list[Any]:
 
 
 class _Quoted(list[Any]):
-    """Parsed argument of a substitution that was written in quotes, as a list of substitutions."""
+    """Argument of a substitution, written in quotes and parsed into a list of substitutions."""
 
 
 _ESCAPED = tuple("$()'\"\\")

@@ -93,11 +93,11 @@ def service_fixture(scope: Any) -> Any:
 
 
 def _part_of_service(name: str, part: str) -> Callable[[Any], Any]:
-    """Return a function that takes a scope and returns a fixture for part of `launch_service`.
+    """Return a function that takes a pytest scope and returns a fixture.
 
     Args:
         name: Name of the fixture.
-        part: Name of the attribute.
+        part: Attribute of the fixture `launch_service` that is the new fixture's value.
     """
 
     def make(scope: Any) -> Any:
@@ -231,7 +231,7 @@ def scope_of(test: Any) -> str:
 def fixture_of(test: Any) -> tuple[str, str]:
     """Return name and pytest scope of the launch fixture that a test uses.
 
-    The name is "" if the test has no mark `launch` that names a fixture.
+    The result is ("", "function") if the test has no mark `launch` that names a fixture.
     """
     for mark in getattr(test, "pytestmark", ()):
         if mark.name == "launch" and (named := mark.kwargs.get("fixture")) is not None:

@@ -134,7 +134,7 @@ class IoHandler(_Record):
         timeout: float | None = 10,
         **options: Any,
     ) -> bool:
-        """Wait until processes have printed a text; return False at the timeout.
+        """Wait until a matching process has printed a text; return False at the timeout.
 
         Args:
             expected_output: Text, pattern, or list of texts and patterns in order.
@@ -144,7 +144,7 @@ class IoHandler(_Record):
             options: Further options of `assertInStream`.
 
         Raises:
-            NoMatchingProcessException: If the process has printed nothing at all.
+            NoMatchingProcessException: If no matching process prints anything before the timeout.
         """
 
         def is_there() -> bool:
@@ -160,7 +160,7 @@ class IoHandler(_Record):
         return found
 
     def assertWaitFor(self, *args: Any, **kwargs: Any) -> None:
-        """Wait until processes have printed a text; for the arguments see `waitFor`.
+        """Wait until a matching process has printed a text; for the arguments see `waitFor`.
 
         Raises:
             AssertionError: If the text has not been printed before the timeout.
@@ -188,11 +188,11 @@ def resolveProcesses(
         info_obj: Record of processes.
         process: Action, or part of a process's name; None for all processes.
         cmd_args: Arguments that a process found by name must have; NO_CMD_ARGS for no arguments.
-        strict_proc_matching: Whether a name may match only one process.
+        strict_proc_matching: Whether a name that matches several processes is an error.
 
     Raises:
         NoMatchingProcessException: If no process matches.
-        ValueError: If a name matches several processes.
+        ValueError: If a name matches several processes and `strict_proc_matching` is true.
         TypeError: If `process` has another type.
     """
     known = info_obj.processes()
@@ -279,7 +279,7 @@ def assertInStream(
         process: Action of the process, or a part of its name.
         cmd_args: Arguments of the process, to choose among processes of one name.
         output_filter: Function that changes the output before it is compared.
-        strict_proc_matching: Whether a name may match only one process.
+        strict_proc_matching: Whether a name that matches several processes is an error.
         strip_ansi_escape_sequences: Whether to remove colours before the comparison.
         stream: "stdout" or "stderr".
 
@@ -358,7 +358,7 @@ class SequentialTextChecker:
     assertInText = assertInStdout
 
     def get_nearby_lines(self) -> str:
-        """Return the line of the text found last, with two lines before and after."""
+        """Return the line of the text found last, with two lines before and two lines after it."""
         lines = "".join(self._output).splitlines()
         before = "".join(self._output[: self._piece])
         before += "".join(self._output[self._piece : self._piece + 1])[: self._column]

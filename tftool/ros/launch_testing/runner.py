@@ -74,7 +74,7 @@ def _cases(tests: Any) -> Iterator[Any]:
 
 
 def _given(function: Callable[..., Any], values: Mapping[str, Any]) -> Callable[..., Any]:
-    """Return `function` with the `values` bound whose names are arguments of the function."""
+    """Bind the `values` that `function` takes as arguments; return the bound function."""
     wanted = inspect.signature(function).parameters
     return functools.partial(function, **{k: v for k, v in values.items() if k in wanted})
 
@@ -87,7 +87,7 @@ class TestRun:
         param_args: Values of the parameters, by name.
         pre_shutdown_tests: Tests that run during the launch.
         post_shutdown_tests: Tests that run after the launch's end.
-        timeout: Seconds until the tests must be ready to start.
+        timeout: Longest time in seconds from the launch's start until the tests may start.
         markers: Markers that decorators have set on the function that describes the launch.
     """
 

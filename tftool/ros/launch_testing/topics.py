@@ -98,7 +98,7 @@ class WaitForTopics:
         return {topic for topic, _ in self.topic_tuples} - self.topics_received()
 
     def received_messages(self, topic_name: str) -> list[Any]:
-        """Return the last messages that have arrived on a topic.
+        """Return the stored messages of a topic, oldest first; `__init__` limits their number.
 
         Raises:
             KeyError: If the helper does not wait for this topic.
@@ -136,7 +136,7 @@ class DataRepublisher:
             listen_topic: Topic to receive from.
             publish_topic: Topic to publish on.
             msg_type: Message type of both topics.
-            transform_fn: Function that returns the changed message; None to publish nothing.
+            transform_fn: Function that returns the changed message, or None to publish nothing.
         """
         self._node, self._change = node, transform_fn
         self._received = 0

@@ -80,7 +80,7 @@ class Context:
         self._on_shutdown.append(callback)
 
     def on_change(self, callback: Callable[[], object]) -> Callable[[], None]:
-        """Register a function to call at shutdown; return a function that removes the callback."""
+        """Register `callback`, called at shutdown; return a function that removes the callback."""
         self._listeners.append(callback)
         return lambda: self._listeners.remove(callback)
 

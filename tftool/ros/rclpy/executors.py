@@ -111,7 +111,7 @@ class Executor:
         return [seat.ros_node for seat in self._seats]
 
     def shutdown(self, timeout_sec: float | None = None) -> bool:
-        """Shut the executor down and remove all its nodes."""
+        """Shut the executor down and remove all its nodes; always return True."""
         if not self._over:
             self._over = True
             self._leave_context()

@@ -30,7 +30,7 @@ _LEVELS: dict[int, Level] = {10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 5
 
 
 class SkipFirst:
-    """Class of rclpy that implements `skip_first=True`; programs can import it without effect."""
+    """Placeholder for rclpy's implementation of `skip_first=True`; the class has no effect."""
 
 
 class RcutilsLogger:

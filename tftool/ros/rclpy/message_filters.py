@@ -58,11 +58,11 @@ class Subscriber(SimpleFilter):
 def _stamp(msg: Any, allow_headerless: bool, who: str) -> Time | None:
     """Return the stamp of a message.
 
-    A message without a header gets the present time, or None after a warning.
+    For a message without a header, return the present time, or log a warning and return None.
 
     Args:
         msg: The message.
-        allow_headerless: Whether a message without a header gets the present time.
+        allow_headerless: Whether to return the present time for a message without a header.
         who: Name of the logger for the warning.
     """
     if hasattr(msg, "header") and hasattr(msg.header, "stamp"):

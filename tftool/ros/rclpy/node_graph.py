@@ -167,7 +167,7 @@ class NodeGraph:
         return self.__count(topic_name, PUBLISHER)
 
     def count_subscribers(self, topic_name: str) -> int:
-        """Count the subscriptions of a topic."""
+        """Count the subscriptions to a topic."""
         return self.__count(topic_name, SUBSCRIPTION)
 
     def __count(self, topic_name: str, role: Role) -> int:
@@ -179,13 +179,13 @@ class NodeGraph:
     def get_publishers_info_by_topic(
         self, topic_name: str, no_mangle: bool = False
     ) -> list[TopicEndpointInfo]:
-        """Return a description of each publisher of a topic that belongs to a ROS node."""
+        """Return a description of each publisher that ROS nodes have on a topic."""
         return [endpoint_info(end) for end in self.__ends(topic_name, PUBLISHER)]
 
     def get_subscriptions_info_by_topic(
         self, topic_name: str, no_mangle: bool = False
     ) -> list[TopicEndpointInfo]:
-        """Return a description of each subscription to a topic that belongs to a ROS node."""
+        """Return a description of each subscription that ROS nodes have to a topic."""
         return [endpoint_info(end) for end in self.__ends(topic_name, SUBSCRIPTION)]
 
     def __ends(self, topic_name: str, role: Role) -> list[Endpoint]:
@@ -318,7 +318,7 @@ def _of_node(
     """Return (name, types) of the topics, services or actions of one node.
 
     Args:
-        seat: tftool's state of the node that asks.
+        seat: tftool's state of the querying node.
         name: Name of the other node.
         namespace: Namespace of the other node.
         find: Function that yields (name, type) for a node's full name.

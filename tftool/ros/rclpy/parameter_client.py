@@ -190,7 +190,7 @@ class ParameterEventHandler:
 
     @staticmethod
     def get_parameter_from_event(event: Any, parameter_name: str, node_name: str) -> Any:
-        """Return the message about a node's parameter in an event; None if there is no message."""
+        """Return a node's parameter in an event, as a Parameter message; None if not contained."""
         if event.node != node_name:
             return None
         told = ParameterEventHandler.get_parameters_from_event(event)
@@ -214,7 +214,7 @@ class ParameterEventHandler:
     def add_parameter_event_callback(
         self, callback: Callable[[Any], object]
     ) -> ParameterEventCallbackHandle:
-        """Call `callback` with each parameter event of all nodes."""
+        """Call `callback` with each parameter event of any node; return a handle for removal."""
         handle = ParameterEventCallbackHandle(callback)
         self._of_all.insert(0, handle)
         return handle

@@ -187,7 +187,7 @@ def qos_check_compatible(
     """Compare a publisher's profile with a subscription's profile.
 
     Returns:
-        Whether the profiles are compatible, and the reason if not.
+        (OK, "") for compatible profiles; otherwise (ERROR, reason).
     """
     policy = conflict(
         quality_of(publisher_qos, offered=True), quality_of(subscription_qos, offered=False)
@@ -341,8 +341,8 @@ def declare_qos_parameters(
     """Declare a parameter for each QoS policy in `options`; set `qos` to the parameters' values.
 
     Raises:
-        InvalidQosOverridesError: If a parameter's value is invalid, or the callback rejects the
-            profile.
+        InvalidQosOverridesError: If a parameter's value is invalid, or the callback in `options`
+            rejects the profile.
     """
     sort = "publisher" if "Publisher" in entity_type.__name__ else "subscription"
     which = f"{sort}_{options.entity_id}" if options.entity_id else sort

@@ -61,7 +61,7 @@ class QoSLivelinessChangedInfo(NamedTuple):
 
 
 class QoSIncompatibleInfo(NamedTuple):
-    """Number of incompatible endpoints, its change, and the policy that the newest one violates."""
+    """Number of incompatible endpoints, change since the last report, and last violated policy."""
 
     total_count: int = 0
     total_count_change: int = 0
@@ -69,7 +69,7 @@ class QoSIncompatibleInfo(NamedTuple):
 
 
 class QoSMatchedInfo(NamedTuple):
-    """Numbers of endpoints matched so far and matched now, with the change of each number."""
+    """Numbers of endpoints matched so far and now, and the changes since the last report."""
 
     total_count: int = 0
     total_count_change: int = 0
@@ -234,7 +234,7 @@ class EndpointWatch(WorkQueue):
         self._deadline.end()
 
     def lease_expired(self) -> None:
-        """Report that this publisher has given no sign of life for longer than its lease."""
+        """Report that the watched publisher gave no sign of life for longer than its lease."""
         self._lost = QoSCountInfo(self._lost.total_count + 1, 1)
         self._tell(self._wanted.liveliness, self._lost)
 

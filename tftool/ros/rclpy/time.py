@@ -220,14 +220,14 @@ class Clock:
         return self._sleep(rel_time.nanoseconds, context)
 
     def _sleep(self, duration: int, context: Any) -> bool:
-        """Block for nanoseconds on this clock; return False if the sleep ends earlier."""
+        """Sleep `duration` nanoseconds on this clock; return False if the sleep ends earlier."""
         _require_started(context)
         return self._block(duration, context)
 
     def _block(
         self, duration: int, context: Any, is_over: Callable[[], bool] = lambda: False
     ) -> bool:
-        """Block for nanoseconds of tftool's clock, or until `is_over` returns True.
+        """Block for `duration` nanoseconds of tftool's clock, or until `is_over` returns True.
 
         Return False if the program or the context ends earlier.
         """
@@ -292,7 +292,7 @@ class ROSClock(Clock):
         return self._override if self._is_overridden else super().now()
 
     def _set_ros_time_is_active(self, enabled: bool) -> None:
-        """Switch between the time set by a `TimeSource` and tftool's time."""
+        """Show the time set by a `TimeSource` if `enabled` is true, else tftool's time."""
         if enabled is bool(self._is_overridden):
             self._is_overridden = enabled
             return
@@ -319,7 +319,7 @@ class ROSClock(Clock):
             self._override = override
 
     def _sleep(self, duration: int, context: Any) -> bool:
-        """Block for nanoseconds on this clock; return False if the sleep ends earlier.
+        """Sleep `duration` nanoseconds on this clock; return False if the sleep ends earlier.
 
         Switching a `TimeSource` on or off ends the sleep.
         """
@@ -383,7 +383,7 @@ class JumpThreshold:
 
 @dataclass(eq=False)
 class TimeJump:
-    """Jump of a clock: its kind, and its length in time."""
+    """Jump of a clock: kind, and signed duration; the duration is 0 for a switched `TimeSource`."""
 
     clock_change: ClockChange
     delta: Duration

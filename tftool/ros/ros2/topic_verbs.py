@@ -148,7 +148,7 @@ _POLICIES: dict[str, Any] = {
 def _heard(node: Node, asked: argparse.Namespace, callback: Callable[[Any], None]) -> None:
     """Subscribe to a topic; call `callback` with each message that passes the option --filter.
 
-    The QoS profile comes from the options `--qos-…`; without options, it suits the publishers.
+    The options `--qos-…` set the QoS profile; the default is compatible with all publishers.
     """
     name = getattr(asked, "type", None) or _type_of_topic(node, asked.topic)
     ends = [one.qos_profile for one in node.get_publishers_info_by_topic(full_name(asked.topic))]

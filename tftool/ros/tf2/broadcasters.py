@@ -96,7 +96,7 @@ class TransformListener:
         self._stops.clear()
 
     def unregister(self) -> None:
-        """Unsubscribe from both topics, so that the buffer gets no further transforms."""
+        """Unsubscribe from `/tf` and `/tf_static`; the buffer then gets no further transforms."""
         self._member.program.ask(self._stop)
 
 

@@ -280,7 +280,7 @@ class LookupRequest:
     fixed: str | None = None
 
     def answer(self, frames: Frames) -> TransformStamped:
-        """Look up the transform in the buffer `frames`; raise if the lookup fails."""
+        """Look up the transform in `frames`; raise TransformException if the lookup fails."""
         if self.fixed is None:
             return frames.lookup_transform(self.target, self.source, self.time)
         return frames.lookup_transform_full(*self._full)
@@ -538,11 +538,11 @@ class Buffer(BufferCore, BufferInterface):
         return self.promise(question(*asked, **named))
 
     def wait_for_transform_full_async(self, *asked: Any, **named: Any) -> Future:
-        """Return a future that gets the transform between two times when it is available."""
+        """Return a future of the transform between two frames, each at its own time."""
         return self.promise(full_question(*asked, **named))
 
     def promise(self, asked: LookupRequest) -> Future:
-        """Return a future of the requested transform, which completes when it is available."""
+        """Return a future of the transform; it completes when the transform is available."""
         future = Future(executor=self._program.executor)
         self.hints.wait()
 
@@ -577,6 +577,6 @@ class Buffer(BufferCore, BufferInterface):
         return self.lookup_transform_core(*asked, **named)
 
     async def lookup_transform_full_async(self, *asked: Any, **named: Any) -> Any:
-        """Wait until a transform between two times is available, and return it."""
+        """Wait for the transform between two frames, each at its own time; return the transform."""
         await self.wait_for_transform_full_async(*asked, **named)
         return self.lookup_transform_full_core(*asked, **named)

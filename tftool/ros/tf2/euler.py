@@ -100,7 +100,7 @@ def quaternion_about_axis(angle: float, axis: Sequence[float]) -> Quad:
 
 
 def quaternion_multiply(quaternion1: Sequence[float], quaternion0: Sequence[float]) -> Quad:
-    """Return the product of two quaternions."""
+    """Return the product `quaternion1` · `quaternion0`."""
     return quaternions.multiply(_quad(quaternion1), _quad(quaternion0))
 
 
@@ -146,7 +146,7 @@ def inverse_matrix(matrix: Any) -> Any:
 
 
 def concatenate_matrices(*matrices: Any) -> Any:
-    """Return the product of 4×4 matrices."""
+    """Return the product of 4×4 matrices, in the order of the arguments."""
     product = np.identity(4)
     for matrix in matrices:
         product = product @ np.asarray(matrix)

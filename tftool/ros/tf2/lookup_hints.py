@@ -84,7 +84,7 @@ class LookupHints:
                     self._say("early", self._early_text())
 
     def look_in_vain(self, target: str, source: str) -> None:
-        """Record a failed `can_transform`; log the reason if the tests have failed for long."""
+        """Record a failed `can_transform`; log the reason if such calls have failed for long."""
         self._waits = True
         self._hint_that_nothing_arrives()
         now = self._program.clock.now()
