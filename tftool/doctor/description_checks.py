@@ -98,7 +98,7 @@ def joint_without_state(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def links_below(robot: Robot, joint: RobotJoint) -> list[str]:
-    """Return all links of the robot whose pose depends on a joint.
+    """Return all of the robot's links whose pose depends on the joint `joint`.
 
     These are the links below the joint, and the links below all joints that mimic it.
     """

@@ -275,7 +275,7 @@ def gap(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _turned_or_lossy(model: Model, track: Track, limits: Limits) -> Hit | None:
-    """Return a hit about a short gap of an edge in which the robot turned far, or lost samples.
+    """Return a hit about a short gap while the robot turned far, or about an edge's lost samples.
 
     Lost samples are missing from an otherwise exact period. Return None if nothing is found.
     """
@@ -390,7 +390,7 @@ def _publisher_at(model: Model, track: Track, begin: int, end: int) -> Fix:
 
 
 def _in_service(model: Model, track: Track, limits: Limits) -> list[tuple[int, int]]:
-    """Return the gaps of `holes`, except right after the first sample or before the recording."""
+    """Return the gaps of `holes`, without those after the first sample or before the recording."""
     found = holes(track, limits)
     if not found or not model.evidence.timed:
         return found

@@ -370,8 +370,8 @@ def diagnose(
         urdf: File with the robot's description; None for the recorded description, if any.
 
     Returns:
-        The findings, by area, errors first. Findings with the attribute `because_of` are
-        consequences of other findings.
+        The findings, by area, errors first. A finding whose `because_of` is not None is the
+        consequence of another finding.
 
     Raises:
         InputError: If nothing of the recording can be read.

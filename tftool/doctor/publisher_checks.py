@@ -194,7 +194,7 @@ def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
 def _folded(told_of: dict[tuple[str, str], Hit]) -> dict[tuple[str, str], Hit]:
     """Merge each conflict into the conflict that causes it; other conflicts do not change.
 
-    If a node computes a transform from a transform with two publishers, both alternate.
+    If a node computes a transform from a transform with two publishers, both transforms alternate.
 
     Args:
         told_of: Conflicts by edge.
