@@ -398,7 +398,7 @@ def compact(
 
 
 def _of_robot(branch: Branch, moving: Collection[str]) -> Branch:
-    """Mark the frame in a row of a robot description as static unless its joint is in `moving`."""
+    """Mark the frame in a row of a robot description as static unless the frame is in `moving`."""
     info = branch.info
     return replace(branch, info=info._replace(is_static=info.frame not in moving))
 

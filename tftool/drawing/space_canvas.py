@@ -380,7 +380,7 @@ def _ground(
     Args:
         picture: Data of the picture.
         view: Direction, centre and scale of the view.
-        reach: Width or height of the picture, metres.
+        reach: The larger of the picture's width and height, metres.
         sparse: Whether to return only the crossings of the grid, as lines of length 0.
 
     Returns:
