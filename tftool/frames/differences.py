@@ -469,7 +469,7 @@ def side_of(frames: Comparable, name: str) -> Side:
 
 
 def joints_of(robot: Robot) -> frozenset[str]:
-    """Return the names of the links of a robot whose pose depends on the position of a joint."""
+    """Return the names of a robot's links whose pose depends on the position of a joint."""
     return frozenset(one.child for one in robot.joints.values() if one.moves)
 
 

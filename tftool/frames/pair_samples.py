@@ -151,7 +151,7 @@ def trajectory_of(path: TransformArray) -> Trajectory:
 def links_between(buffer: Buffer, target: str, source: str) -> list[str]:
     """Return the child frame of each edge on the path between two frames.
 
-    A frame with several parents has the newest parent.
+    For a frame with several parents, the edge from the newest parent is used.
 
     Raises:
         TransformException: If a name is unknown, or the frames are in different trees.

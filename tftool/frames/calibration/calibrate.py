@@ -501,7 +501,7 @@ def _reason(shown: _Shown) -> tuple[str, str | None]:
 
 
 def _tilted(shown: _Shown) -> tuple[float, float, float] | None:
-    """Return the undetermined direction if it is oblique to x, y and z of its frame; else None."""
+    """Return the undetermined direction if it is not along x, y or z of moving_a; else None."""
     if shown.axis is None or np.abs(shown.axis).max() > math.cos(math.radians(3.0)):
         return None
     x, y, z = shown.axis.tolist()

@@ -350,7 +350,7 @@ class MotionPairs:
 
 
 def pairs_of(problem: Problem, offset: float, longest: float = 10.0) -> MotionPairs:
-    """Choose pairs of poses at most `longest` seconds apart, with large rotations up to 150°."""
+    """Choose pairs of poses at most `longest` seconds apart, where A turns far, up to 150°."""
     places, turns, valid = problem.a.at(problem.times + offset)
     known = np.flatnonzero(valid)
     dice = np.random.default_rng(0)
@@ -399,7 +399,7 @@ def _weights(off: Floats) -> Floats:
 
 
 def _solved(design: Floats, right: Floats, weights: Floats, ridge: float) -> tuple[Floats, Floats]:
-    """Solve linear equations robustly, with three rows per pair.
+    """Solve linear equations robustly, with three rows per pair of poses.
 
     Returns:
         The solution, and the error of each pair.
