@@ -98,7 +98,7 @@ LINES: Final = {
 
 
 def with_blanks(node: str, text: str) -> str:
-    """Turn a node's source into an exercise: replace the assignments to be written by TODOs.
+    """Turn a node's source into an exercise: write a TODO in place of each key assignment.
 
     Args:
         node: Name of the node, which selects the assignments.

@@ -282,14 +282,14 @@ Chain = tuple[Frames, str]
 
 
 def _chains(opened: list[Frames], words: list[str]) -> list[Chain]:
-    """Return the file and the --moving value of each motion; the value is "" if none was given.
+    """Return each motion's file and its --moving value; the value is "" if none was given.
 
     Args:
         opened: One or two opened files.
         words: Values of --moving.
 
     Raises:
-        UsageError: If a value is missing, or one motion includes the published mounting pose.
+        UsageError: If a single file lacks two values, or one motion includes the published mount.
     """
     if len(opened) == 1:
         if len(words) != 2:
@@ -413,7 +413,7 @@ LEAST_DIFFERENCE: Final = (0.001, 0.1)
 def _compared(
     found: Calibration, published: PublishedMount
 ) -> tuple[list[str], dict[str, object] | None]:
-    """Compare the published mounting pose with the estimate; return sentences and a JSON object."""
+    """Return sentences on how the published mount is outside the interval, and data for --json."""
     if published.mount is None or found.mount is None or found.interval95 is None:
         return [], None
     shift, turn = np.split(difference(found.mount, published.mount), 2)

@@ -59,7 +59,7 @@ def _unfolded(word: str) -> list[str]:
 def _judge(
     word: str, judge: Callable[..., Verdict], kept: "_Kept | None", *, own_nodes: bool
 ) -> "tuple[Report, bool]":
-    """Judge one scenario; return a report, and False if the scenario file could not be read.
+    """Judge one scenario; return a report, and whether the scenario file could be read.
 
     The report has warnings and, for a failure, the doctor's findings. `own_nodes` says whether
     nodes of the scenario run; only then, contradictions between their edges become warnings.

@@ -160,7 +160,7 @@ def _show_recording(connection: Connection, options: DemoOptions, word: str) -> 
 
 
 def _arguments(settings: "list[str] | tuple[str, ...]", source_frame: str | None) -> dict[str, str]:
-    """Parse the NAME=VALUE words of --set into a mapping.
+    """Return the NAME=VALUE words of --set as a mapping; `source_frame` is added unless None.
 
     Raises:
         UsageError: If a word is not NAME=VALUE, or a name is given twice.

@@ -173,7 +173,7 @@ def _side(connection: Connection, word: str, lasting: Duration | None) -> Side:
 def _pairs(words: list[str]) -> tuple[Pair | None, Pair | None]:
     """Parse the values of --pair; return the pair of frames for A and the pair of frames for B.
 
-    Without --pair, both items are None: each source must then have only one chain of frames.
+    A single value is for both. Without --pair, both are None: A and B must have one chain each.
 
     Raises:
         UsageError: If --pair is given more than twice, or a value is not TARGET:SOURCE.

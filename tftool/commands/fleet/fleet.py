@@ -252,7 +252,7 @@ class Inventory(FleetTask):
         return {"source": source, "unreadable": why}
 
     def outcome(self, rows: Sequence[Row]) -> str:
-        """Return "whole", "damaged" or "unreadable"."""
+        """Return the outcome of one recording: "whole", "damaged" or "unreadable"."""
         if rows[0].get("unreadable") is not None:
             return UNREADABLE
         return "damaged" if rows[0]["damage"] else "whole"
@@ -458,7 +458,7 @@ def told(counts: dict[str, int]) -> str:
 
 
 def announce(counts: dict[str, int], earlier: dict[str, int], output: Path) -> None:
-    """Print the outcomes of recordings processed now (`counts`) and before (`earlier`)."""
+    """Print the number of recordings by outcome: processed now (`counts`), before (`earlier`)."""
     total = sum(counts.values())
     passed = sum(earlier.values())
     over = f" ({passed:,} were in the file already: {told(earlier)})" if passed else ""

@@ -301,7 +301,7 @@ class Arrivals:
         self._plain = timeline.is_plain()
 
     def receive_until(self, moment: Stamp, traffic: Traffic | None) -> None:
-        """Receive the messages up to the time `moment`, and count the messages in `traffic`."""
+        """Receive the messages up to the time `moment`, and count them in `traffic` unless None."""
         start = self._timeline.start
         while self._known:
             self._receive(self._known.pop(0), start, traffic)
@@ -384,7 +384,7 @@ class Arrivals:
             report.chain.delay.add(delay)
 
     def _receive_many(self, first: int, last: int, traffic: Traffic) -> None:
-        """Receive the messages `first` to `last` in bulk: grouped by frame, then by publisher."""
+        """Receive the messages with indices `first` to `last` - 1 at once, grouped by frame."""
         timeline = self._timeline
         rows = timeline.rows(first, last)
         if not len(rows.edges):
@@ -469,7 +469,7 @@ def run(connection: Connection, options: MonitorOptions) -> ExitStatus:
 
 
 def _sorted_out(words: list[str]) -> tuple[tuple[str, str] | None, str | None]:
-    """Split the words of the command line into a pair of frames and FROM.
+    """Split the words of the command line into a pair of frames and FROM, each None if missing.
 
     One word is FROM; two words are the target and the source frame; a third word is FROM.
     """

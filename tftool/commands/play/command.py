@@ -124,7 +124,7 @@ async def _play(
 
 
 def _tell(record: "LogRecord") -> None:
-    """Print log messages of the player and of the session connection."""
+    """Print a warning about the session or a message of the player; ignore other log messages."""
     if is_news(record):
         notice(visible(record.text))
     elif record.node == "player":

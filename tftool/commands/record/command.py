@@ -76,7 +76,7 @@ class RecordingRun:
         self._is_terminal = sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
 
     async def run(self, duration: Duration | None) -> None:
-        """Record until `duration` is over, the doctor reports the finding, or the user stops.
+        """Record for `duration`, or until the doctor has the requested finding or the user stops.
 
         Args:
             duration: Nanoseconds to record; None for no end.
@@ -99,7 +99,7 @@ class RecordingRun:
                 self.found = self._look(now)
 
     def _look(self, now: Stamp) -> "Finding | None":
-        """Let the doctor examine the ring buffer; return the expected finding, or None."""
+        """Let the doctor examine the ring buffer; return the requested finding, or None."""
         assert self._finding is not None
         held = self.rolling.held()
         material = evidence_of_log(

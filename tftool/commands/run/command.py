@@ -109,10 +109,10 @@ def _own_words(words: Sequence[str]) -> list[str]:
 def _run_other(
     connection: Connection, target: str, words: list[str], *, refused: bool
 ) -> int | None:
-    """Run the command that replaces a known ROS program, and return its status; else return None.
+    """Run the tftool command that replaces a ROS program, if any; return its exit status or None.
 
     Raises:
-        UsageError: If the program is known, and `refused` says that options for nodes were given.
+        UsageError: If there is such a command, but options for nodes were given (`refused`).
     """
     if (target, *words[:1]) == KEYBOARD:
         if refused:

@@ -216,7 +216,7 @@ class Invocation(NamedTuple):
 
 
 class Command:
-    """Base class of commands: the fields of a derived class are options, its docstring is the help.
+    """Base class of commands: a derived class has options as fields, and the help as docstring.
 
     A field's value or type contains the option's declaration (`option`, `flag` or `argument`).
 

@@ -85,7 +85,7 @@ def evidence_from(
 
 
 def rules_of(word: str | None) -> DoctorRules:
-    """Return the doctor's settings from a scenario, or from the settings file beside a recording.
+    """Return the doctor's settings in a scenario or in the file beside a recording, if any.
 
     Raises:
         InputError: If the file cannot be read.

@@ -236,7 +236,7 @@ def join_session(
 
 
 def refuse_moment(connection: Connection) -> None:
-    """Raise UsageError if a session runs on this or the connected machine.
+    """Raise UsageError if a session runs that the command can join.
 
     Called when a past time is requested, because a session does not store the past.
     """

@@ -35,10 +35,10 @@ _FRACTION = re.compile(r"[.,](\d+)")
 
 
 def finite(value: float | None) -> float | None:
-    """Check that a number is finite, and return the number; return None for None.
+    """Check that a number is from -`MOST` to `MOST`; return the number, or None for None.
 
     Raises:
-        typer.BadParameter: If the value is NaN, infinite, or above `MOST`.
+        typer.BadParameter: If the value is NaN, infinite, or beyond these limits.
     """
     if value is not None and not math.isfinite(value):
         raise typer.BadParameter(f"{value} is not a finite number.")
@@ -46,7 +46,7 @@ def finite(value: float | None) -> float | None:
 
 
 def positive(value: float | None) -> float | None:
-    """Check that a number is finite and above zero, and return the number; None for None.
+    """Check that a number is above zero and at most `MOST`; return the number, None for None.
 
     Raises:
         typer.BadParameter: If the value is zero, negative, NaN or infinite, or above `MOST`.
@@ -57,7 +57,7 @@ def positive(value: float | None) -> float | None:
 
 
 def not_negative(value: float | None) -> float | None:
-    """Check that a number is finite and not negative, and return the number; None for None.
+    """Check that a number is from zero to `MOST`; return the number, or None for None.
 
     Raises:
         typer.BadParameter: If the value is negative, NaN or infinite, or above `MOST`.

@@ -168,14 +168,14 @@ def can_redraw() -> bool:
 class Redrawing:
     """Drawer that replaces the last picture on the terminal by the next picture.
 
-    Lines on stderr appear above the picture; before the first picture, these lines are not changed.
+    From the first picture on, text printed to a terminal's stderr appears above the picture.
     """
 
     def __init__(self, clock: Clock) -> None:
         """Prepare to draw.
 
         Args:
-            clock: Clock of the world; the cursor is shown again before a signal ends the process.
+            clock: Clock of the world, which restores the cursor before a signal ends the process.
         """
         self.console: Console = Console()
         self._live: Live | None = None

@@ -88,7 +88,7 @@ def press_all(connection: Connection, turtle: str, keys: str) -> str:
 
 
 async def press_there(world: World, turtle: str, words: list[str]) -> str:
-    """Press keys in a joined session, and wait for the end of each motion in the turtle's poses.
+    """Press keys in a joined session; after each key, wait until the turtle no longer moves.
 
     Args:
         world: World of the joined session.

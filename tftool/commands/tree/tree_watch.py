@@ -57,7 +57,7 @@ def show_changes(connection: Connection, options: TreeOptions) -> None:
 async def _redrawn(world: World, options: TreeOptions, console: Console) -> None:
     """Redraw the tree periodically in the event loop.
 
-    A drawing thread of rich could draw while the tree is being changed.
+    rich's own drawing thread is not used: it could draw while the tree is being changed.
     """
     # Text on stderr is not visible on this screen, so warnings are shown below the tree.
     news = Text(style="yellow")
