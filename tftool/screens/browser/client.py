@@ -126,7 +126,7 @@ class PageClient:
         return asked or self.at is None
 
     def offer(self, tree: TreeMessage, pair: str | None, poses: Poses) -> None:
-        """Set the next poses to send; poses that are still waiting to be sent are dropped."""
+        """Set the next messages to send: tree if changed, pair, poses; drop those still waiting."""
         if self._next:
             self.skipped += 1
         self._next = [] if self._revision == tree.revision else [tree.text]

@@ -376,7 +376,7 @@ class LiveDisplays:
 
 
 def _is_known(shape: Shape, buffer: Buffer) -> bool:
-    """Return whether the pose of a shape's frame at its stamp is known."""
+    """Return whether the buffer has the pose of a shape's frame at the shape's stamp."""
     root, frames = shape.frame, buffer.frames()
     if root not in frames or shape.stamp is None:
         return root in frames

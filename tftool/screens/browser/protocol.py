@@ -157,7 +157,7 @@ def encode_range(epoch: Stamp, snapshot: Snapshot) -> str:
 
 
 def encode_pair(buffer: Buffer, epoch: Stamp, target: str, source: str, at: Stamp) -> str:
-    """Return the message with the pose of `source` in `target`, as printed by `tftool echo`."""
+    """Return the message with the pose of `source` in `target`, or with the lookup's error."""
     told: dict[str, Any] = {"target": target, "source": source}
     try:
         found = buffer.lookup_transform(target, source, at)

@@ -45,7 +45,7 @@ class ShownRobot:
     rest: Mapping[str, float] | None = None
 
     def place(self, frames: Collection[str]) -> bool:
-        """Set `prefix` from the frame names `frames`; return whether the prefix has changed."""
+        """Guess `prefix` from the frame names `frames`; return whether the prefix has changed."""
         prefix = prefix_of(self.robot, frames)
         changed = prefix != self.prefix
         self.prefix = prefix

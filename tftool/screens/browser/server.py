@@ -275,7 +275,7 @@ class PageServer:
                 client.tell(protocol.encode_range(self.source.clock.epoch, following.snapshot))
 
     def _tell_displays(self, displays: LiveDisplays, clock: Clock) -> Stamp:
-        """Pass new messages to draw to all pages; return the time of the next call."""
+        """Pass the new drawable messages to all pages; return the time of the next call."""
         began = clock.now()
         blocks = displays.round()
         for client in self.clients:
@@ -409,7 +409,7 @@ class PageServer:
     async def _standalone(self, connection: ServerConnection, query: str) -> Response:
         """Return a page that contains the whole buffer and needs no server.
 
-        Only one page is written at a time; the writing ends when the client or the server closes.
+        Only one page is written at a time; writing stops if the client or the server closes.
         """
         if self._writing is not None:
             return _refuse(

@@ -220,7 +220,7 @@ class FrameTrails:
         return _trails(ways, at)
 
     def _way(self, frame: str, fixed: str, start: Stamp, end: Stamp) -> "FrameWay":
-        """Look up a frame's positions after `start`, every `PERIOD` until `end`."""
+        """Look up a frame's positions in `fixed` after `start`, every `PERIOD` until `end`."""
         stamps = np.arange(start // PERIOD + 1, end // PERIOD + 1, dtype=np.int64) * PERIOD
         stamps = stamps[stamps > 0]
         if not len(stamps):

@@ -207,7 +207,7 @@ def stopped_for(moment: SceneMoment) -> float:
 
 
 def _time_of(moment: SceneMoment, found: TransformStamped, age: float) -> tuple[str, str]:
-    """Return the label and the text of a transform's stamp, as seconds since the start."""
+    """Return the label and the text of a transform's stamp (seconds since the start) and age."""
     if not found.stamp:
         return "at", " all times"
     since = as_seconds(found.stamp - (moment.stamp - moment.elapsed))
@@ -244,7 +244,7 @@ def _more_facts(found: TransformStamped) -> list[tuple[str, str]]:
 
 
 def _away(x: float, y: float, z: float, look: Look) -> str:
-    """Return a point's distance in metres and direction, such as "1.2 m, 30.0° left"."""
+    """Return a point's distance and direction from the origin, such as "1.200 m, 30.0° left"."""
     away, bearing = math.hypot(x, y, z), math.degrees(math.atan2(y, x))
     if away < 0.001:
         return f"{away:.3f} m"

@@ -19,7 +19,7 @@ ROOMY = 0.4
 
 
 class Camera:
-    """Camera over the xy plane, which keeps the scale steady from picture to picture.
+    """Camera above the xy plane; the scale stays steady from picture to picture.
 
     Until the user zooms or pans, the view is enlarged when the picture grows, but is reduced only
     when most of the view is empty.

@@ -40,7 +40,7 @@ class SceneQuestion:
         return self.moment
 
     def wait(self, moment: SceneMoment) -> SceneMoment:
-        """Return the past state `moment`, with `behind` updated to the present time."""
+        """Store and return the past state `moment`, with `behind` (the time since then) updated."""
         now = self.scene.world.clock.now()
         self.moment = replace(moment, behind=now - moment.stamp)
         return self.moment
@@ -70,7 +70,7 @@ class SceneQuestion:
     def fix(self) -> None:
         """Make the frame under the cursor the fixed frame of the picture.
 
-        If that frame is the fixed frame already, return to the root of the tree.
+        If that frame is the fixed frame already, the root of the tree becomes the fixed frame.
         """
         self.fixed = "" if self.fixed == self.source else self.source
 

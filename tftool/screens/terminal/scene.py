@@ -399,7 +399,7 @@ class Scene:
 
 
 def _inked(strokes: Sequence[Stroke], turtles: Sequence[_SeenTurtle]) -> list[Stroke]:
-    """Return strokes, those in the simulator's default pen colour in the colour of their turtle.
+    """Return the strokes, with each turtle's colour in place of the simulator's default colour.
 
     Args:
         strokes: The newest strokes, oldest first; the last stroke of a turtle ends at the turtle.

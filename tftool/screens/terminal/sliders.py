@@ -126,7 +126,7 @@ class Sliders:
                 return
 
     def step(self, direction: int, *, fine: bool = False) -> None:
-        """Move the chosen joint by one step: up if `direction` is 1, down if -1."""
+        """Move the chosen joint by a step (small if `fine`): up if `direction` is 1, down if -1."""
         joint = self.chosen
         if joint is None or self._mover is None:
             return

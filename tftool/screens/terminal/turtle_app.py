@@ -396,7 +396,7 @@ class TurtleApp(PanelApp):
         self._dragged = None
 
     def _under(self, event: events.MouseEvent) -> tuple[str, int, int]:
-        """Return the name of the panel under the pointer, and the cell (x, y) in that panel."""
+        """Return the panel under the pointer ("" for none), and the pointer's cell in the panel."""
         for name in ("field", "tree", "pair", "log"):
             panel = self.panel(name)
             inside = panel.content_region
@@ -488,7 +488,7 @@ class TurtleApp(PanelApp):
     def action_fix(self) -> None:
         """Make the frame under the cursor the fixed frame of the picture.
 
-        If that frame is the fixed frame already, return to the root of the tree.
+        If that frame is the fixed frame already, the root of the tree becomes the fixed frame.
         """
         if self.setting.drive_only:
             # In teleop, f has the same meaning in both cases.
@@ -503,7 +503,7 @@ class TurtleApp(PanelApp):
         self.redraw()
 
     def action_pan(self, columns: int, rows: int) -> None:
-        """Move the view from above, or orbit the 3-D picture."""
+        """Pan the view from above; in the 3-D view, orbit instead."""
         if self.field.in_space:
             self.field.camera.turn(-columns / 6, rows / 3)
         else:
