@@ -158,7 +158,7 @@ def view(
 
     Raises:
         InputError: If no part of the recording can be read.
-        TypeError: If the source has no frames.
+        TypeError: If `shown` is not a source of frames.
     """
     from tftool.base.errors import without_frames
     from tftool.buffer.buffer import Buffer

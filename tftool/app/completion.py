@@ -201,7 +201,7 @@ def _values(kind: Any, called: str, before: Sequence[str]) -> Iterator[Offer]:
 
 
 def _frames(before: Sequence[str]) -> list[str]:
-    """Return the frames of a file on the command line; without a file, of the running session."""
+    """Return the frame names of the file on the command line, or else of the running session."""
     named = _frames_of_a_file([*_words_behind(), *before])
     if named is not None:
         return named
@@ -233,7 +233,7 @@ def _frames_of_a_file(words: Sequence[str]) -> list[str] | None:
 def _read_frames(word: str) -> list[str]:
     """Return the frame names of a recording or a description.
 
-    A long recording is not read: without a column cache, the result is empty.
+    For a long recording, only the column cache is read; without this cache, the result is empty.
 
     Raises:
         UsageError: If the word names a scenario.
