@@ -34,7 +34,7 @@ def did_you_mean(word: str, known: Iterable[str]) -> str:
 
 
 def natural_key(name: str) -> list[tuple[int, str]]:
-    """Return a key that sorts names by the numbers in them: `run_2` before `run_10`."""
+    """Return a sort key that compares numbers in names by value: `run_2` before `run_10`."""
     words = re.split(r"([0-9]+)", name)
     return [(int(word), "") if place % 2 else (0, word) for place, word in enumerate(words)]
 
