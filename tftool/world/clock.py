@@ -411,7 +411,7 @@ class WallClock(Clock):
 
 
 class FollowedClock(WallClock):
-    """Clock that shows real time until its time is set; then time moves only when set again.
+    """Clock that shows real time until `tell` sets a time; then only `tell` moves the time.
 
     A world that shares a session (a group of processes that exchange frames) uses this clock. While
     another process publishes `/clock`, for example to play a recording, this clock shows the

@@ -117,7 +117,7 @@ class Endpoint:
 
 
 class Endpoints:
-    """Endpoints of a world, and of the other processes in its session."""
+    """Store of the endpoints of a world, and of the other processes in the session."""
 
     def __init__(self, changed: Callable[[], object], warn: Callable[[str, str], object]) -> None:
         """Create an empty store.

@@ -222,7 +222,7 @@ class GoalHandle:
             self.on_cancel()
 
     async def cancellation(self) -> bool:
-        """Wait for the decision on the last cancel request; return whether it was accepted."""
+        """Wait for the decision on the last cancel request; return True if accepted."""
         return self._cancellation is not None and await asyncio.shield(self._cancellation)
 
     async def result(self) -> GoalResult:

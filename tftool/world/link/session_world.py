@@ -220,7 +220,7 @@ def shared(link: "Link | None", world: World, role: str = "host") -> Iterator[No
 def lived(
     world: World, link: "Link | None", role: str
 ) -> Callable[[Stamp | None], Awaitable[None]]:
-    """Return a coroutine function that shares a world and runs it until a time, or for ever."""
+    """Return a coroutine function that shares and runs a world until a time, or for ever."""
 
     async def alive(until: Stamp | None) -> None:
         with shared(link, world, role):

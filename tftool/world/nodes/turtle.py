@@ -151,7 +151,7 @@ class Turtle:
         self._teleports.append(where)
 
     def set_pen(self, color: Color, width: int, off: bool) -> None:
-        """Lift the pen (`off`), or lower it with a colour and a width; width 0 means one pixel."""
+        """Lift the pen if `off`; else lower the pen, with a colour and a width (0 as 1 pixel)."""
         self.pen_on = not off
         if not off:
             self.color, self.width = color, max(width, 1)

@@ -263,7 +263,7 @@ class FoxgloveClient:
         return "the server has closed it"
 
     async def _read(self, connection: ClientConnection) -> None:
-        """Process the messages of a connection until it ends."""
+        """Process the messages of a connection until the connection ends."""
         self._heard.clear()
         self._subscriptions.clear()
         self._refusals.clear()

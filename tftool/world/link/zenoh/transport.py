@@ -308,7 +308,7 @@ class Wire:
     def watch_tokens(
         self, key: str, on_token: Callable[[tuple[str, bool]], object]
     ) -> Callable[[], None]:
-        """Call `on_token` with (token, whether it was added) on changes; return a stop function."""
+        """Call `on_token` with (token, True if added, False if removed); return a stop function."""
 
         def changed(sample: Any) -> None:
             there = sample.kind == self._zenoh.SampleKind.PUT
