@@ -555,7 +555,7 @@ class History(Fields):
         return PARENT_CHANGED if changes else STORED
 
     def _make_room_in_front(self) -> int:
-        """Return a free record before the oldest sample, for samples inserted in reverse order."""
+        """Return the index of a free record before the oldest sample, to insert an older sample."""
         if self.start == 0:
             room = max(_LEAST_SLACK, self.count >> _SLACK)
             self._splice(0, 0, array("q", bytes(RECORD * room)))
@@ -685,8 +685,8 @@ class History(Fields):
     def use_large_pages(self) -> None:
         """Move many samples into large memory pages, if the system has large pages.
 
-        Random lookups over five links of 100 000 samples take a quarter less time. When the memory
-        is full, the array grows on ordinary pages; it moves to large pages again only when it is
+        Random lookups over five links of 100 000 samples take a quarter less time. When these pages
+        are full, the array grows on ordinary pages; it moves to large pages again only when it is
         twice as long.
         """
         self.large_from = 2 * self.count

@@ -228,7 +228,7 @@ def bad_stamp(child: str, stamp: Stamp, authority: str) -> str:
 
 
 def too_many_frames(child: str, authority: str, limit: int) -> str:
-    """Return the log line for a frame name that would exceed the buffer's maximum number."""
+    """Return the log line for a new frame name above the maximum number of frame names."""
     return (
         f'TF_TOO_MANY_FRAMES: Ignoring transform for child_frame_id "{child}" from authority '
         f'"{authority}" because the buffer already has {limit} frame names; '

@@ -178,7 +178,7 @@ def full(
 def twist(
     buffer: "Buffer", tracking: str, observation: str, time: Stamp, interval: Duration
 ) -> Velocity:
-    """Return the linear and angular velocity of the frame `tracking`, expressed in `observation`.
+    """Return the velocity of `tracking` relative to `observation`, in the axes of `observation`.
 
     The result is the mean over `interval` around `time`, or over the part of the interval for which
     the buffer has data.

@@ -328,7 +328,7 @@ class _Batch:
         return ready
 
     def fill_latest(self, rows: Indices) -> None:
-        """Write the latest pose into all rows whose time is 0."""
+        """Write the latest pose into the rows `rows`, whose time is 0."""
         if not len(rows):
             return
         if self.latest is None:
