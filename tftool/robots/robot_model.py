@@ -299,10 +299,11 @@ def load_urdf(path: str | Path, arguments: Mapping[str, str] | None = None) -> R
             do not expand files from strangers.
 
     Raises:
-        InputError: If the file cannot be read.
+        InputError: If the file cannot be read, or contains xacro and is not named .xacro.
         DescriptionError: If the description has mistakes; the error lists all mistakes with line
             and column.
-        UsageError: If the file contains xacro and the extra `xacro` is not installed.
+        UsageError: If the file contains xacro and the extra `xacro` is not installed, or if
+            arguments are given to a file without xacro.
     """
     return Robot(load_description(path, arguments))
 

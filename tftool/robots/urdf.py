@@ -292,7 +292,7 @@ class _Reader:
             self.mistakes = before
 
     def _attribute(self, element: _Element, attribute: str) -> tuple[int, int, int]:
-        """Return line, column and width of an attribute, or of the tag of a missing attribute."""
+        """Return line, column and width of an attribute; of the tag if the attribute is missing."""
         wanted = re.compile(rf"(?<![\w:]){re.escape(attribute)}\s*=\s*(\"[^\"]*\"|'[^']*')")
         column = element.column
         for line in range(element.line, min(element.line + 20, len(self.lines))):
