@@ -270,7 +270,7 @@ class Table:
         return min(messages / self._expected, 1.0) if self._expected else 1.0
 
     def edge(self, parent: str, child: str, static: bool, count: int) -> "Growing | None":
-        """Return the columns of an edge with `count` new transforms; None above `MOST_EDGES`."""
+        """Return the columns of an edge that gets `count` transforms; None above `MOST_EDGES`."""
         plain = parent.removeprefix("/"), child.removeprefix("/")
         key = (*plain, static)
         edge = self._edges.get(key)

@@ -66,7 +66,7 @@ class ContainerFormat:
         return found
 
     def create(self, path: Path, **options: Any) -> "ContainerWriter":
-        """Create a file of this format; options that its writer lacks are ignored.
+        """Create a file of this format; options that the format's writer lacks are ignored.
 
         Raises:
             UsageError: If the format lacks the wanted compression, or a package is missing.

@@ -143,7 +143,7 @@ class Ahead:
         """Create the pool for the chunks of one file.
 
         Args:
-            keys: Distinct keys of the chunks, in the order of reading; the reader may skip chunks.
+            keys: Distinct keys of the chunks, in the order of reading; the reader can skip chunks.
             packed: Function that returns the compressed chunk with a key, or None for a chunk that
                 must not be decompressed ahead. The function is called in the thread of the reader,
                 shortly before the chunk is read.
@@ -256,7 +256,7 @@ def _in_steps(method: str, packed: bytes, size: int, coarse: int) -> tuple[bytea
     """Decompress in steps of 4096 bytes up to the offset `coarse`, then byte by byte.
 
     Returns:
-        The decompressed bytes, and the offset of the step that failed, or `len(packed)`.
+        The decompressed bytes, and the offset of the failed step; `len(packed)` if none failed.
 
     Raises:
         InputError: If the compression is unknown.

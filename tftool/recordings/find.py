@@ -36,7 +36,7 @@ def fetched(place: str) -> Iterator[str]:
     """Yield a local path to a file; the file of a URL is first copied to a temporary folder.
 
     Args:
-        place: A local path, which is returned unchanged, or a URL.
+        place: A local path, which is yielded unchanged, or a URL.
 
     Raises:
         InputError: If the file is missing, or cannot be fetched.
@@ -503,7 +503,7 @@ def refusal(path: Path, error: OSError) -> InputError:
 
 
 def _stem(path: Path) -> str:
-    """Return a file name up to its number, which split recordings add: "run_" of `run_0.mcap`."""
+    """Return a file name without suffix and without number at the end: "run_" of `run_0.mcap`."""
     return path.name.partition(".")[0].rstrip("0123456789")
 
 

@@ -33,10 +33,10 @@ def refuse_stdout(path: Path) -> None:
 
 
 def refuse_existing(path: Path, *, force: bool) -> None:
-    """Raise an error if the path exists (even as a broken symbolic link), unless `force` is given.
+    """Raise an error if the path exists and `force` is false, or if the path is `-` (stdout).
 
     Raises:
-        UsageError: If the path is `-`, or exists and `force` is not given.
+        UsageError: In both cases; a broken symbolic link also counts as existing.
     """
     refuse_stdout(path)
     if not force and os.path.lexists(path):

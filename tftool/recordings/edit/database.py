@@ -51,6 +51,7 @@ class EditedDatabase:
         """Copy the input file to `path`, and verify the copy.
 
         Raises:
+            InputError: If the copy differs from the input file.
             OSError: If the file cannot be written.
         """
         self.path = path

@@ -307,7 +307,7 @@ class EditedFile:
             self._chunks.end_block(block)
 
     def finish(self, tapes: Sequence[ContainerReader]) -> None:
-        """Write attachments and metadata, and close the file."""
+        """Write the inputs' attachments and metadata, and close the file."""
         if self._chunks is not None:
             for number, tape in enumerate(tapes):
                 if isinstance(tape, ChunkedReader) and self._fits(number, tape):

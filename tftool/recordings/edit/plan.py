@@ -180,7 +180,7 @@ def changer_for(edits: Edits, recordings: Sequence[Recording]) -> Changer:
         recordings: The opened recordings; transforms are read only if an option names links.
 
     Raises:
-        UsageError: If an option names a missing topic or frame, or is impossible.
+        UsageError: If an option names a missing topic or frame, or cannot be carried out.
     """
     _check_names(edits, recordings)
     window = _window(edits, recordings)
@@ -342,9 +342,9 @@ def _reparenting(edits: Edits, recordings: Sequence[Recording]) -> Reparenting |
 
 
 def _widened(moments: "np.ndarray", low: Stamp, high: Stamp) -> tuple[Stamp, Stamp]:
-    """Widen the time span from `low` to `high` to the nearest samples outside the time span.
+    """Widen the time span from `low` to `high` to the nearest times in `moments` outside the span.
 
-    Interpolation at `low` and `high` needs these samples of `moments`.
+    Interpolation at `low` and `high` needs the samples at these times.
     """
     before, behind = moments[moments <= low], moments[moments >= high]
     first = int(before.max()) if len(before) else low

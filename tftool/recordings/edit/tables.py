@@ -29,7 +29,7 @@ class Result:
 
     Attributes:
         payload: New bytes of the message; None if the message is dropped.
-        layout: Byte layout of the message.
+        layout: Byte layout of `payload`.
         kept: Indices of the transforms that remain in the message.
         given: Indices of the kept transforms whose poses an option sets.
     """

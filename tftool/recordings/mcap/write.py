@@ -320,7 +320,7 @@ class McapWriter(ChunkedWriter):
         self._chunks.append(entry.record())
 
     def end_block(self, chunk: Chunk) -> None:
-        """Write the current chunk in place of `chunk`, with equal compression and CRC setting."""
+        """Write the current chunk to replace `chunk`, with the same compression and CRC setting."""
         before = self.method, self._pack, self._with_chunk_crc
         try:
             if chunk.method != self.method:

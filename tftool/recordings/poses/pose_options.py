@@ -134,7 +134,7 @@ def collect(given: "list[tuple[str | None, str, Any]]") -> ChosenOptions:
 
 
 def names_file(word: str) -> bool:
-    """Whether a word names a file, with or without a prefix (NAME=FILE)."""
+    """Whether a word names an existing file, with or without a prefix (NAME=FILE)."""
     return path_behind_prefix(word)[1] is not None
 
 
