@@ -282,7 +282,7 @@ Chain = tuple[Frames, str]
 
 
 def _chains(opened: list[Frames], words: list[str]) -> list[Chain]:
-    """Return each motion's file and its --moving value; the value is "" if none was given.
+    """Return the file and the --moving value of each motion; "" for a value that was not given.
 
     Args:
         opened: One or two opened files.

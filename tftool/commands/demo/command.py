@@ -55,8 +55,8 @@ def _show(
     Args:
         connection: Connection of the command.
         options: Options of the command.
-        chosen: Scenario to show.
-        wanted: Name of the scenario; None to show the running session, if one is running.
+        chosen: Scenario to show if no session is joined.
+        wanted: Name of the scenario; None to join the running session if there is one.
 
     Returns:
         Name of the scenario that the user chose next; None if the user quit.

@@ -198,7 +198,7 @@ def _findings_and_topics(
 def _topics(
     recording: Recording, timeline: Timeline, evidence: Evidence | None, start: Stamp
 ) -> list[PlayedTopic]:
-    """Return the topics to show: topics with transforms, then others; both by message count.
+    """Return the topics to show: topics with transforms, then others; each group by message count.
 
     The message times are known only for topics with transforms or with headers.
     """

@@ -88,7 +88,7 @@ def _opened(connection: Connection, place: str | None, *, alone: bool, simulated
 
     Args:
         connection: Connection of the command.
-        place: Scenario to host; None for the running session.
+        place: Scenario to host; None for the running session or, if none runs, an empty world.
         alone: Whether to host an empty world for the node.
         simulated: Whether a hosted world uses simulated time.
     """

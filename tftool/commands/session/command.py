@@ -85,7 +85,7 @@ def _as_object(link: Link, rates: dict[str, float]) -> dict[str, Any]:
 
 
 def _written(found: dict[str, Any], *, verbose: bool) -> str:
-    """Format the report as text; on a terminal, the text fits the terminal's size."""
+    """Format the facts about a session as text, which fits the size of a terminal."""
     if not sys.stdout.isatty():
         return "\n".join(line.plain for line in view.lines(found, verbose=verbose))
 

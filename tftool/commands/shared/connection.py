@@ -194,7 +194,7 @@ class Connection:
 
     @property
     def hosts_alone(self) -> bool:
-        """Whether there is no session to join; the check does not connect to any process."""
+        """Whether the command joins no session; decided without connecting to any process."""
         if self.mode is Mode.HOST:
             return True
         if self.needs_link:
@@ -444,7 +444,7 @@ def listen_from(
 
 @contextmanager
 def _listening_bar(listen_for: float, look: "Look | None") -> "Iterator[ListeningBar | None]":
-    """Yield a progress bar on a terminal; otherwise print how long the command listens."""
+    """Yield a progress bar on a terminal; else print how long the command listens, yield None."""
     if not sys.stderr.isatty():
         notice(f"Listening for {listen_for:g} s ...")
         yield None

@@ -64,13 +64,13 @@ def join_or_host(
 
     Args:
         connection: Connection of the command.
-        word: Name of a world to host; None for the running session.
+        word: Name of a scenario to host; None to join the running session if there is one.
         needs_turtles: Whether to join only a session with a turtle simulator.
         cache_time: Cache time of a joined world's buffer, nanoseconds.
 
     Raises:
         LinkError: If a session was requested, but no session runs, or no connection is possible.
-        UsageError: If --join was given with a named world.
+        UsageError: If --join was given with a named scenario.
     """
     connection.refuse_to_join(word)
     link, alone = _open_link(connection)
@@ -222,7 +222,7 @@ def join_session(
 ) -> Session | None:
     """Join the running session; return None if no session runs and none was requested.
 
-    For commands that otherwise host a world on simulated time, which other processes cannot join.
+    Commands call this before they host a world on simulated time, which cannot be shared.
 
     Raises:
         LinkError: If a session was requested (`--join`) and none runs.

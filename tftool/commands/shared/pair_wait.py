@@ -29,7 +29,7 @@ NOTHING_NEW = "no new transform has arrived since the publisher left"
 
 
 class PairWait:
-    """Wait until one transform can be looked up.
+    """Waiter that returns when one transform can be looked up.
 
     The lookup is repeated whenever a transform is inserted into the buffer.
     """

@@ -30,7 +30,7 @@ class FramePair:
         at: Time to look up; 0 for the latest.
         offset: Nanoseconds from now to the time to look up (negative for the past); 0 if `at` is
             used.
-        fixed_frame: Fixed frame through which `source` at the time to look up is expressed in
+        fixed_frame: Fixed frame of a lookup with two times: `source` at the time to look up, and
             `target` at the latest time; None to look up both frames at the same time.
     """
 
@@ -45,7 +45,7 @@ class FramePair:
         return now + self.offset if self.offset else self.at
 
     def ask(self, buffer: Buffer, now: Stamp) -> TransformStamped:
-        """Return the transform of the pair.
+        """Return the transform of the pair at the time to look up, for a clock that reads `now`.
 
         Raises:
             TransformException: If the transform is not available.
@@ -127,7 +127,7 @@ def pairs_and_place(words: list[str], given: list[str]) -> tuple[list[tuple[str,
 
 
 class SpanOptions(Protocol):
-    """Protocol of options that select times of a recording: --from, --to, --rate and so on."""
+    """Protocol of the options --from, --to, --every, --rate, --at-stamps-of, which select times."""
 
     first: At | None
     last: At | None

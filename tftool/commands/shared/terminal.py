@@ -24,7 +24,7 @@ _layers: list[tuple[Callable[[], object], Callable[[], object]]] = []
 def left_while_stopped(leave: Callable[[], object], enter: Callable[[], object]) -> Iterator[None]:
     """Restore the terminal while Ctrl-Z stops the process; blocks may be nested.
 
-    This has no effect outside the main thread, without SIGTSTP, and if SIGTSTP is ignored.
+    This has no effect outside the main thread, or where SIGTSTP is missing or ignored.
 
     Args:
         leave: Function that restores the terminal's original state.
