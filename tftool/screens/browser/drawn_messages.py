@@ -132,7 +132,7 @@ def _fill(track: DrawnTopic, recording: Recording, limits: Limits) -> None:
 def pack_tracks(
     block: PackedBlock, tracks: Sequence[DrawnTopic], buffer: Buffer, epoch: Stamp
 ) -> list[dict[str, Any]]:
-    """Append messages of topics to a block of packed data; return the header for these topics.
+    """Append messages of topics to a block of packed data; return a header for each topic.
 
     For each shape, the pose of the shape's frame at the stamp is added, in the root of the tree.
     """

@@ -45,7 +45,7 @@ class StandaloneData:
         begin: Time to show first; None for the latest transforms.
         robot: Robot among the frames, with the folders of its meshes.
         tracks: Messages to draw besides the frames.
-        view: Initial settings of the page, in the form of the text after # in its address.
+        view: Initial settings of the page, in the form of the text after # in the page's URL.
     """
 
     name: str

@@ -153,7 +153,7 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         self._traffic.receive(now, message.transforms, message.authority, is_static=False)
 
     def tell(self, sentence: str) -> None:
-        """Show a sentence in place of the key help in the bottom line, until the next key."""
+        """Show a sentence in place of the key help in the bottom line, until a key is pressed."""
         self.news = sentence
         self.redraw()
 

@@ -106,7 +106,7 @@ class Arrival:
 
 
 def drawn(kind: str, header: Any, places: npt.NDArray[Any], most: int) -> DrawnMessage:
-    """Return a message with a single shape, without positions that are not finite.
+    """Return a message with a single shape at those positions that are finite.
 
     Args:
         kind: Kind of the shape.
