@@ -199,7 +199,7 @@ def kind_in_words(found: Found) -> str:
 def refuse_options_of_files(
     robot: DescriptionOptions, recording: RecordingOptions, word: str | None
 ) -> None:
-    """Raise UsageError for an option of recordings or descriptions if FROM is another source."""
+    """Raise UsageError for options of recordings or descriptions if FROM is of another kind."""
     what = "The running session" if word is None else f"'{visible(word)}'"
     robot.refuse(f"{what} is neither a robot description nor a recording")
     recording.refuse(f"{what} is not a recording")

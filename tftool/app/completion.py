@@ -113,7 +113,7 @@ def offers(words: Sequence[str]) -> list[Offer]:
 
 
 def _is_plain(word: str, current: str) -> bool:
-    """Return whether to offer `word`: options after a typed dash, else only other words."""
+    """Return whether to offer `word`: only options after a typed dash, else no options."""
     return word.startswith("-") == current.startswith("-")
 
 
