@@ -278,7 +278,7 @@ def _print(found: Calibration, checked: PublishedMount | None, *, for_programs: 
 # Motions
 
 Chain = tuple[Frames, str]
-"""Frames of a file, and the value of --moving for a motion in it; empty for its only chain."""
+"""Frames of a file, and the value of --moving for a motion; empty for the file's only chain."""
 
 
 def _chains(opened: list[Frames], words: list[str]) -> list[Chain]:

@@ -74,7 +74,7 @@ def run(connection: Connection, options: ExplainOptions) -> ExitStatus:
 def _explain_joints(
     connection: Connection, place: str, frames: tuple[str, str], *, for_programs: bool
 ) -> ExitStatus:
-    """Explain a lookup in a robot description, joint by joint."""
+    """Print why a lookup in a robot description succeeds or fails, joint by joint."""
     opened = open_from(connection, place, tells=False)
     robot, joints = opened.robot, connection.robot.joints
     assert robot is not None

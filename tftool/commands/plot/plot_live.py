@@ -23,7 +23,7 @@ from tftool.world.stopper import leave_screen
 from tftool.world.world import World
 
 ON_ITS_WAY = seconds(1)
-"""Nanoseconds within which samples may still arrive; a live plot ends before that."""
+"""Nanoseconds by which samples may be late; a live plot ends at the newest sample if younger."""
 
 FARTHEST_BACK = 4
 """Number of visible time spans that are stored for going back."""
