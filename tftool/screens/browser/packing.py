@@ -31,7 +31,7 @@ METRES: Final = 1e-6
 """Step in metres to which translations are rounded if the file would be too large."""
 
 QUATERNION: Final = 1e-7
-"""Step to which a quaternion's numbers are rounded then: a fifth of a microradian."""
+"""Step of a quaternion's numbers in a rounded file: an angle of a fifth of a microradian."""
 
 _WHOLE_BELOW: Final = 2.0**52
 _PIECE: Final = 1 << 20

@@ -226,7 +226,7 @@ _TRAIL_DIGITS = 5
 
 
 def _stamps(epoch: Stamp, asked: PageRequest) -> list[Stamp]:
-    """Return evenly spread times between "from" and "to" of a request."""
+    """Return "count" evenly spread times from "from" to "to", which are fields of a request."""
     first, last = stamp_at(epoch, asked["from"]), stamp_at(epoch, asked["to"])
     steps = asked["count"] - 1
     return [first + (last - first) * step // steps for step in range(asked["count"])]

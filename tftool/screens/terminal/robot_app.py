@@ -290,7 +290,7 @@ class RobotApp(PanelApp):
         return lines + self._others(width, height - len(lines))
 
     def _others(self, width: int, room: int) -> list[Text]:
-        """Return the positions of the links as at most `room` lines, with a heading."""
+        """Return at most `room` lines: a heading, and the links' positions in the root link."""
         if room < WITH_TABLE:
             return []
         look, root = self.look, self.prefix + self.sliders.robot.root

@@ -34,7 +34,7 @@ FLASH = seconds(0.4)
 """Nanoseconds for which a wall is highlighted after a turtle hit it."""
 
 NEAR = 1e-3
-"""Metres between the end of a turtle's last stroke and the turtle, whose pose is rounded."""
+"""Most metres between the end of a turtle's last stroke and the turtle's rounded position."""
 
 
 @dataclass(frozen=True, slots=True)

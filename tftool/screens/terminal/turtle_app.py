@@ -446,7 +446,7 @@ class TurtleApp(PanelApp):
             self.action_drive(key)
 
     def _scroll(self, lines: int) -> None:
-        """Scroll the log back by a number of messages."""
+        """Scroll the log back by `lines` messages; forward if `lines` is negative."""
         self._back = max(0, min(self._back + lines, len(self.scene.world.log.records)))
 
     def action_panel(self, step: int) -> None:

@@ -82,7 +82,7 @@ class DrawnMessage:
 
     @property
     def count(self) -> int:
-        """Total number of places at which the shapes are drawn."""
+        """Total number of positions in the `places` of all shapes."""
         return sum(len(shape.places) for shape in self.shapes)
 
     def thinned(self, most: int) -> "DrawnMessage":
