@@ -206,7 +206,7 @@ def advice(world: World) -> Iterator[str]:
 
 
 async def until(world: World, over: asyncio.Event, limit: Duration | None) -> None:
-    """Wait until the event `over` is set, at most `limit` nanoseconds; None for no limit."""
+    """Wait until `over` is set, at most `limit` nanoseconds of the clock; None for no limit."""
     if limit is None:
         await over.wait()
         return

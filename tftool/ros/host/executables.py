@@ -169,7 +169,7 @@ def _robot_of(asked: Asked) -> "Robot | None":
     """Return the robot model for a node that publishes joint states or transforms of links.
 
     The model comes from the parameter robot_description, or from the URDF file whose path is the
-    first argument. Return None if the request contains neither.
+    first argument. Return None without parameter and argument.
 
     Raises:
         UsageError: If the robot description is not valid; the text lists the mistakes.

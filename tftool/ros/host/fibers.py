@@ -81,7 +81,7 @@ class CodeLine:
 
 
 def user_line(frame: FrameType | None) -> CodeLine | None:
-    """Return the innermost line of a call stack in a user's file; None without users' lines."""
+    """Return the innermost line of a call stack that is in a user's file; None without any."""
     while frame is not None:
         file = frame.f_code.co_filename
         if is_users_file(file):
@@ -91,7 +91,7 @@ def user_line(frame: FrameType | None) -> CodeLine | None:
 
 
 def user_line_of_error(trace: TracebackType | None) -> CodeLine | None:
-    """Return the innermost line of a traceback in a user's file; None without users' lines."""
+    """Return the innermost line of a traceback that is in a user's file; None without any."""
     found = None
     while trace is not None:
         code = trace.tb_frame.f_code

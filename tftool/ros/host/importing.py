@@ -139,7 +139,7 @@ class _StandInLoader(Loader):
 
 
 def load(imported: import_table.ImportedName) -> Any:
-    """Return the object that an entry of the import table names, importing its module if needed."""
+    """Return the object of an import-table entry; import the object's module if needed."""
     package, _, kind = imported.module.partition("/")
     if kind:
         name, _, part = imported.name.partition("_")

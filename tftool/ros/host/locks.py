@@ -22,7 +22,7 @@ def running_program() -> Any:
 
 
 class StateMonitor:
-    """State shared by several threads, which may wait until another thread changes it.
+    """State shared by several threads, which can wait until another thread changes the state.
 
     The inner mutex is held only briefly, never while a thread waits.
     """

@@ -207,7 +207,7 @@ class Program(Node):
         self.event_loops.clear()
 
     def start_fiber(self, fiber: Fiber) -> "asyncio.Task[None]":
-        """Start a fiber as a further thread of the program; callable in the event loop's thread."""
+        """Start a fiber as another thread of the program; call this in the event loop's thread."""
         self._own(fiber)
         task = asyncio.get_running_loop().create_task(fiber.drive(), name=fiber.name)
         self._others.add(task)

@@ -259,7 +259,7 @@ SLICE: Duration = seconds(0.01)
 
 
 class _WorldSelector(selectors.DefaultSelector):
-    """Selector for event loops of asyncio that waits on tftool's clock, as `time.sleep` does."""
+    """Selector for asyncio's event loops whose timeouts count seconds of tftool's clock."""
 
     def select(self, timeout: float | None = None) -> Any:
         ready = super().select(0)

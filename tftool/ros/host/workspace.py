@@ -225,8 +225,8 @@ class Workspace:
     def share(self, name: str) -> Path:
         """Return a folder with the files of a package's share directory; nothing is installed.
 
-        The folder is part of tftool, or the package's source folder. For a package that installs
-        files under other paths, the folder is a temporary one with links to the files.
+        The folder is part of tftool for a package of ROS, else the package's source folder. For a
+        package that installs files under other paths, it is a temporary folder with links.
 
         Raises:
             UsageError: If there is no such package.

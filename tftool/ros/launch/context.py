@@ -12,7 +12,7 @@ from tftool.base.errors import UsageError
 from tftool.ros.host.workspace import Workspace, current
 
 DEEPEST = 50
-"""Largest allowed depth of launch files that include each other."""
+"""Largest allowed depth of nested includes of launch files."""
 
 
 class LaunchContext:
@@ -23,7 +23,7 @@ class LaunchContext:
             its settings for the scope's nodes here.
         environment: Environment variables for processes, at first a copy of tftool's variables.
         environments: Environments saved by PushEnvironment, the newest last.
-        files: Launch files that include each other; the current file is last.
+        files: Launch files, each included by the one before; the current file is last.
         node_names: Number of nodes that were started, by full name.
         load: Function that reads an included launch file; None outside of a launch.
         launch: Launch that executes the actions; None outside of a launch.
@@ -120,7 +120,7 @@ class LaunchContext:
         """Make a launch file the current file.
 
         Raises:
-            UsageError: If too many launch files include each other.
+            UsageError: If the includes of launch files are nested too deep.
         """
         if len(self.files) >= DEEPEST:
             raise UsageError(

@@ -43,7 +43,7 @@ class Element:
         return self.values.get(name, default)
 
     def need(self, *names: str) -> Any:
-        """Return the value of a required attribute, which may have one of several names.
+        """Return the value of a required attribute, whose name is any of `names`.
 
         Raises:
             InputError: If the attribute is missing.

@@ -103,9 +103,9 @@ YAML_FLAGS = {"yes": True, "on": True, "no": False, "off": False}
 
 
 def _flag(element: Element, name: str, default: str) -> bool:
-    """Return the value of a boolean attribute; raise InputError for any other text.
+    """Return the value of a boolean attribute; raise InputError if the text is not boolean.
 
-    A substitution, `$(…)`, is such an error: its value is unknown before the launch runs.
+    A substitution, `$(…)`, is refused too: its value is unknown before the launch runs.
 
     Args:
         element: Element with the attribute.

@@ -87,7 +87,7 @@ class ParameterFile:
 
     Attributes:
         param_file: Path of the file; substitutions for the path until `evaluate` is called.
-        allow_substs: Whether the file's text may contain substitutions, `$(…)`.
+        allow_substs: Whether to replace the substitutions, `$(…)`, in the file's text.
     """
 
     def __init__(self, param_file: Any, *, allow_substs: Any = False) -> None:

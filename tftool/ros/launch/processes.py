@@ -313,7 +313,7 @@ def _module_files(module: str, roots: Iterable[Path]) -> Iterator[Path]:
 
 
 def _uses_rclpy(file: Path, roots: Sequence[Path], seen: set[Path]) -> bool:
-    """Return whether a file, or a file below `roots` that it imports, mentions rclpy."""
+    """Return whether a file, or any file below `roots` that the file imports, mentions rclpy."""
     if file in seen:
         return False
     seen.add(file)

@@ -396,7 +396,7 @@ class ProcessProxy:
     def wait_for_output(
         self, condition: Callable[[str], bool] = lambda _: True, timeout: float | None = None
     ) -> bool:
-        """Wait until `condition` accepts the output; return False after `timeout` seconds."""
+        """Wait until `condition` accepts the process's output; return False at the timeout."""
         return self._output.holds_within(lambda: self.running and condition(self.output), timeout)
 
     def _text(self, *streams: bool) -> str:
@@ -435,7 +435,7 @@ class ProcessProxy:
 
     @property
     def exit_code(self) -> int:
-        """Exit status of the process."""
+        """Exit status of the process, which must have ended."""
         return int(self._info[self.target_process_action].returncode)
 
 

@@ -166,11 +166,11 @@ def basic_output_filter(
     filtered_patterns: Sequence[str] | None = None,
     filtered_rmw_implementation: str | None = None,
 ) -> Callable[[str], str]:
-    """Return a function that removes lines with some prefixes or patterns from an output.
+    """Return a function that removes lines that begin with a prefix or match a pattern.
 
     Args:
         filtered_prefixes: Prefixes of the lines to remove; by default "pid" and "rc".
-        filtered_patterns: Patterns of the lines to remove.
+        filtered_patterns: Regular expressions, matched at the start of a line; by default none.
         filtered_rmw_implementation: Ignored, because tftool prints no lines of a middleware.
     """
     prefixes = tuple(get_default_filtered_prefixes() if filtered_prefixes is None

@@ -142,8 +142,8 @@ class Requester(WorkQueue):
     def promise(self, request: Callable[[], Coroutine[Any, Any, Any]]) -> Future:
         """Start the coroutine of a request in the event loop; return a future of the response.
 
-        The node's executor completes the future, unless the coroutine returns None. Closing this
-        entity cancels the coroutine.
+        The node's executor completes the future; if the coroutine returns None, the future never
+        completes. Closing this entity cancels the coroutine.
         """
         future = Future(executor=self.seat.executor)
 
@@ -216,7 +216,7 @@ class CallbackGroup:
         raise NotImplementedError
 
     def beginning_execution(self, entity: Any) -> bool:
-        """Count a callback as running; return False if the group's rule permits no callback now."""
+        """Count a callback as running; only return False if the group's rule forbids it now."""
         if not self.can_execute(entity):
             return False
         self.busy += 1
@@ -347,7 +347,7 @@ class Timer(NodeEntity):
         self.seat.program.ask(restart)
 
     def time_since_last_call(self) -> int:
-        """Return the nanoseconds since the timer's last call."""
+        """Return the nanoseconds since the last call, or the creation if there was no call."""
         return self.seat.world.clock.now() - self._last
 
     def time_until_next_call(self) -> int | None:

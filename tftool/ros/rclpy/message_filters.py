@@ -157,7 +157,7 @@ class TimeSynchronizer(SimpleFilter):
         Args:
             msg: Message of an input filter.
             my_queue: Stored messages of that filter, by stamp.
-            my_queue_index: Number of that filter.
+            my_queue_index: Index of that filter, from 0.
         """
         self._keep(Time.from_msg(msg.header.stamp).nanoseconds, msg, my_queue)
         for stamp in sorted(set.intersection(*(set(queue) for queue in self.queues))):
@@ -174,7 +174,7 @@ class TimeSynchronizer(SimpleFilter):
 
 
 class ApproximateTimeSynchronizer(TimeSynchronizer):
-    """Filter that combines messages whose stamps are less than `slop` seconds apart."""
+    """Filter that combines one message per input filter, with stamps less than `slop` s apart."""
 
     def __init__(
         self,

@@ -90,7 +90,7 @@ class NodeParameters:
         """Declare several parameters.
 
         Args:
-            namespace: Prefix of the names, which a dot separates from each name; may be "".
+            namespace: Prefix that a dot joins to each name; "" for no prefix.
             parameters: Tuples (name, value, descriptor); value and descriptor may be missing.
             ignore_override: Whether to ignore values from the command line or launch file.
 
@@ -185,7 +185,7 @@ class NodeParameters:
         return [self.get_parameter(name) for name in names]
 
     def get_parameter_or(self, name: str, alternative_value: Parameter | None = None) -> Parameter:
-        """Return a declared parameter with a value; otherwise return the alternative.
+        """Return the parameter if it is declared and has a value; otherwise the alternative.
 
         If the alternative is None, return a parameter whose type is NOT_SET.
         """

@@ -212,7 +212,7 @@ def _time(length: int | None) -> Duration:
 def profile_from(quality: Quality) -> QoSProfile:
     """Convert tftool's class for quality of service to a QoS profile.
 
-    Settings that another process has not sent get default values.
+    If `quality` has no timing, deadline, lifespan and liveliness get default values.
     """
     timing = quality.timing or Timing()
     manual = timing.is_manual
@@ -310,7 +310,7 @@ class QosCallbackResult:
 
 @dataclass(slots=True)
 class QoSOverridingOptions:
-    """QoS policies that parameters may change, and a callback that checks the changed profile."""
+    """QoS policies that parameters can change, and a callback that checks the changed profile."""
 
     policy_kinds: Sequence[QoSPolicyKind]
     _: KW_ONLY

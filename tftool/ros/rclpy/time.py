@@ -121,7 +121,7 @@ class Time:
 
     @property
     def nanoseconds(self) -> int:
-        """Nanoseconds since the start of the clock."""
+        """Nanoseconds since time 0 of the clock."""
         return self._nanoseconds
 
     @property
@@ -288,7 +288,7 @@ class ROSClock(Clock):
         return super().ros_time_is_active if self._is_overridden is None else self._is_overridden
 
     def now(self) -> Time:
-        """Return the present time, or the last time set by an active `TimeSource`."""
+        """Return the present time; while a `TimeSource` is active, the time that it set last."""
         return self._override if self._is_overridden else super().now()
 
     def _set_ros_time_is_active(self, enabled: bool) -> None:
@@ -356,7 +356,7 @@ class ROSClock(Clock):
 
 
 class ClockChange(IntEnum):
-    """Kind of a clock's jump: a `TimeSource` was switched on or off, or set another time."""
+    """Kind of a clock's jump: a `TimeSource` was switched on or off, or has set another time."""
 
     ROS_TIME_NO_CHANGE = 1
     ROS_TIME_ACTIVATED = 2

@@ -60,7 +60,7 @@ _NAMES_AND_TYPES: dict[str, Callable[[Node], Any]] = {
 
 
 def names_and_types(node: Node, asked: argparse.Namespace) -> Any:
-    """Wait for discovery; return (name, types) of all topics, services or actions."""
+    """Wait for discovery; return (name, types) of all topics, or of all services or actions."""
     listen()
     return _NAMES_AND_TYPES[asked.noun](node)
 

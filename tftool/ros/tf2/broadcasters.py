@@ -193,7 +193,7 @@ class TransformBroadcaster:
         seat.world.broadcast(sent, seat.authority, static=self._static)
 
     def _note_parent(self, parent: str, child: str) -> None:
-        """Log one warning per child if parent and child are swapped or a child has two parents."""
+        """Log one warning per child frame with swapped parent and child, or with two parents."""
         above = self._member.world.buffer.parent
         before = above(child)
         if above(parent) == child != parent:

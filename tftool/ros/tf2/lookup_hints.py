@@ -130,7 +130,7 @@ class LookupHints:
                 info = infos.get(info.parent)
 
     def _hint_that_nothing_arrives(self) -> None:
-        """Log a hint why the buffer is empty, if the buffer is empty at a lookup."""
+        """If the buffer is empty at a lookup, log a hint about the reason."""
         owner = self._program
         if self._frames.frames():
             return
