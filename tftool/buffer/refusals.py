@@ -25,7 +25,7 @@ _NAME_SHOWN: Final = 32
 def unknown(
     frame: str, argument: str, call: str, known: Collection[str], *, target: str, source: str
 ) -> LookupException:
-    """Return the error for an unknown frame; the remedy suggests similar names among `known`."""
+    """Return the error for an unknown frame, with similar names among `known` as a hint."""
     return LookupException(
         f'"{frame}" passed to {call} argument {argument} does not exist. ',
         frame=frame,

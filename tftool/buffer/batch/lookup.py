@@ -395,7 +395,7 @@ def _covered(path: Path, columns: Columns, times: Stamps) -> npt.NDArray[np.bool
 
 
 def _marks(tree: FrameTree, columns: Columns, frames: tuple[int, ...]) -> Stamps:
-    """Return all stamps at which the path from one of the frames up to its root may change."""
+    """Return all stamps at which the path from one of the frames up to its root can change."""
     marks: list[Stamps] = [np.zeros(0, dtype=np.int64)]
     waiting, seen = list(frames), set(frames)
     while waiting:

@@ -21,7 +21,7 @@ class Velocities(NamedTuple):
     """Linear and angular velocities, row by row.
 
     Attributes:
-        linear: Metres per second, shape (n, 3).
+        linear: Metres per second along the axes of the target frame, shape (n, 3).
         angular: Radians per second about the axes of the target frame, shape (n, 3).
     """
 
