@@ -88,7 +88,7 @@ class MessageTable:
         log_times: Times of reception, nanoseconds, shape (n,).
         publish_times: Times of publication, nanoseconds, shape (n,).
         sequences: Publishers' sequence numbers, shape (n,).
-        starts: Offset of each payload, shape (n,).
+        starts: Offset of each payload in `data`, shape (n,).
         lengths: Length of each payload, bytes, shape (n,).
     """
 

@@ -31,7 +31,7 @@ class EdgeFacts:
         rate: Rate in hertz, from the median period; None if static, or for one transform.
         first: First stamp, nanoseconds.
         last: Last stamp, nanoseconds.
-        offset: Delays from stamp to log time; None if static.
+        offset: Statistics of the delay from stamp to log time; None if static.
         simulated: Whether stamps are simulation times, which count from the start of a simulation.
         publishers: Names of the publishers: nodes if recorded, else topics.
     """

@@ -22,7 +22,7 @@ class PoseOptions:
         frames: Names of the frames, "PARENT:CHILD"; None for the format's names.
         pose_rate: Poses per second, for a file without stamps.
         pose_format: Name of the format; None to detect the format from the content.
-        inverted: Whether the file has the inverse of each pose that the format requires.
+        inverted: Whether the file's poses are the inverse of the poses that the format requires.
         axes: Axes of the file's cameras, one of `AXES`; None for the format's axes.
         prefix: Name to put before each frame name, followed by a slash.
     """
