@@ -22,7 +22,9 @@ def test_a_short_gap_of_motion_capture_across_a_large_turn_is_told(speed, told):
         assert "across it: 81.6° and 0.16 m" in found(made, "gap").evidence[0]
 
 
-@pytest.mark.parametrize(("speed", "severity"), [(3.0, Severity.WARNING), (0.1, Severity.NOTE)])
+@pytest.mark.parametrize(
+    ("speed", "severity"), [(3.0, Severity.WARNING), (0.3, Severity.WARNING), (0.1, Severity.NOTE)]
+)
 def test_samples_that_are_missing_one_by_one_are_counted(speed, severity):
     made = Robot()
     for tick in range(200):

@@ -175,8 +175,8 @@ def is_detection(model: Model, track: Track) -> bool:
     "also reported for {times:g} gaps of {again:g} s and {missed:g} periods or more, and for a "
     "gap of {lost:g} s and {lost_periods:g} periods or more across which it turns by "
     "{turned:g}°. A transform with one exact period is also reported if a share of {share:g} "
-    "and {few:g} samples or more are missing. A note if it does not turn so far across one of "
-    "these gaps, and for a part of a robot that no sensor uses",
+    "and {few:g} samples or more are missing. A note if it turns by less than {lossy:g}° "
+    "across each of these gaps, and for a part of a robot that no sensor uses",
     headline="{where} {concerned:has a gap|have gaps}{often}",
     detail="{edge}: nothing from {begin:moment} to {end:moment} ({length:span}; usually every "
     "{period:span}){why}{beside}",
@@ -199,6 +199,7 @@ def is_detection(model: Model, track: Track) -> bool:
         "lost": 0.25,
         "lost_periods": 15,
         "turned": 45.0,
+        "lossy": 10.0,
         "share": 0.05,
         "few": 20,
     },
@@ -295,7 +296,7 @@ def _turned_or_lossy(model: Model, track: Track, limits: Limits) -> Hit | None:
         if not often:
             return None
         place = int(turned.argmax())
-        is_far = turned[place] > limits["turned"] and not model.is_minor(track)
+        is_far = turned[place] > limits["lossy"] and not model.is_minor(track)
         severity = Severity.WARNING if is_far else Severity.NOTE
     worst = int(wide[place])
     begin, end = int(track.sorted_stamps[worst]), int(track.sorted_stamps[worst + 1])
