@@ -107,7 +107,7 @@ ONE = encode_transforms(transforms(random.Random(1), 1))
     ("payload", "told"),
     [
         (b"", "0 bytes are too few for a message with a header"),
-        (b"\x00\x01\x00\x00", "ends before the number of transforms"),
+        (b"\x00\x01\x00\x00", "too short to contain the number of transforms"),
         (b"\x00\x00\x00\x00" + ONE[4:], "only little-endian"),
         (b"\x00\x07\x00\x00" + ONE[4:], "header 0007 is not a header of plain CDR"),
         (ONE[:4] + b"\xff\xff\xff\xff" + ONE[8:], "announces 4294967295 transforms, but has bytes"),

@@ -150,5 +150,5 @@ def test_what_the_nodes_cannot_take_is_said(ros_runtime, package, words, error, 
 
 
 def test_the_gui_is_a_command_of_ours(ros_runtime):
-    with pytest.raises(UsageError, match="run 'tftool robot FILE' in one"):
+    with pytest.raises(UsageError, match="run 'tftool robot FILE' in another"):
         begin(ros_runtime, "joint_state_publisher_gui")

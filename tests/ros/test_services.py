@@ -162,7 +162,7 @@ def test_a_service_that_goes_answers_with_a_sentence(node, ros_runtime):
     service.destroy()
     rclpy.spin_until_future_complete(asker, future, timeout_sec=1.0)
 
-    with pytest.raises(Exception, match="the node that served 'go' has left"):
+    with pytest.raises(Exception, match="the node that served 'go' has ended"):
         future.result()
     other = client.call_async(Trigger.Request())
     client.remove_pending_request(other)

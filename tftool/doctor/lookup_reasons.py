@@ -81,8 +81,8 @@ class TraceResult:
         links: State of each edge in the buffer.
         refusing: Index of the failing edge; None if no edge fails.
         begin: First log time at which the lookup succeeds; None for never.
-        end: Last log time at which the lookup succeeds; None if there is no first or no last time.
-        available: Whether the lookup succeeds.
+        end: Last log time at which the lookup succeeds; None if it never succeeds, or for ever.
+        available: Whether the lookup succeeds at the trace's log time.
     """
 
     trace: LookupTrace

@@ -234,7 +234,7 @@ def _count_of_transforms(payload: bytes) -> int:
     if CDR.order(KIND, payload) != LITTLE:
         raise MalformedMessage(KIND, "only little-endian transforms can be read")
     if len(payload) < 8:
-        raise MalformedMessage(KIND, "the message ends before the number of transforms")
+        raise MalformedMessage(KIND, "the message is too short to contain the number of transforms")
     (count,) = _LENGTH.unpack_from(payload, 4)
     room = (len(payload) - 8) // _SMALLEST_TRANSFORM
     if count > room:

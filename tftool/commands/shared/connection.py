@@ -371,7 +371,7 @@ def open_from(
 
     Raises:
         InputError: If FROM names no source, or the source cannot be read.
-        LinkError: If a session was requested, but no session runs.
+        LinkError: If an option such as --join requires a session, but none runs.
         UsageError: If options do not fit the kind of FROM.
     """
     if lasting is not None:
@@ -421,7 +421,7 @@ def listen_from(
     """Listen to the running session, as `open_from` does; return None if no session runs.
 
     Raises:
-        LinkError: If a session was requested, but no session runs.
+        LinkError: If an option such as --join requires a session, but none runs.
     """
     if connection.hosts_alone:
         return None

@@ -44,7 +44,7 @@ def evidence_from(
 
     Raises:
         InputError: If the word names no source, or the source cannot be read.
-        LinkError: If a session was requested, but no session runs.
+        LinkError: If an option such as --join requires a session, but none runs.
         UsageError: If the word names a robot description, or if `scope` selects a part of a source
             that is not a recording.
     """

@@ -69,7 +69,8 @@ def join_or_host(
         cache_time: Cache time of a joined world's buffer, nanoseconds.
 
     Raises:
-        LinkError: If a session was requested, but no session runs, or no connection is possible.
+        LinkError: If an option such as --join requires a session, but none runs, or no
+            connection is possible.
         UsageError: If --join was given with a named scenario.
     """
     connection.refuse_to_join(word)

@@ -141,8 +141,8 @@ def read_kitti_calibration(file: PoseFile) -> list[PoseLink]:
     links += [_still(*pair, found[key]) for key, pair in named.items() if key in found]
     if not links:
         raise InputError(
-            f"'{file.path}': expected a line P0: to P3:, a line Tr:, or the lines R: and T:, "
-            "but found none."
+            f"'{file.path}': expected a line that begins with P0:, P1:, P2:, P3: or Tr:, "
+            "or two lines that begin with R: and T:, but found no such line."
         )
     return file.renamed("links", links)
 

@@ -310,9 +310,9 @@ def scenarios(
 
 
 def description_lines(offered: Sequence[tuple[str, str]], width: int) -> int:
-    """Return how many lines the longest cut description needs below the list of scenarios.
+    """Return the number of lines below the list of scenarios for the longest description's text.
 
-    Returns 0 if every description fits into its line.
+    Returns 0 if every description fits into its line of the list.
 
     Args:
         offered: Names and descriptions.

@@ -207,7 +207,7 @@ def _own(used: Iterable[str]) -> list[str]:
 
 
 def _ways_to(peers: Iterable[str]) -> tuple[str, ...]:
-    """Return the addresses of this machine from which packets to `peers` are sent; send no packet.
+    """Return this machine's addresses from which packets to `peers` would leave, and send none.
 
     Raises:
         LinkError: If no route leads to a peer.
