@@ -323,8 +323,9 @@ def wild_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     "after the duration of one scan is added). Or messages or transforms are stamped by the "
     "recorder's clock in a recording whose other stamps are shifted as a whole. An error if a "
     "transform is off by more than the cache time. A note up to {certain:g} s. A note also "
-    "if steady streams (95 % within {spread:g} s, {samples:g} messages), none ahead and each "
-    "later than its own period, form groups more than {apart:g} s apart",
+    "if the latencies of steady streams (95 % within {spread:g} s, {samples:g} messages or "
+    "more) form groups more than {apart:g} s apart; streams that are ahead, or late by about "
+    "one period, are left out",
     headline="{topic} {found}",
     detail="{groups}{sources}",
     consequence="{so}",

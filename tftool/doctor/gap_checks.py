@@ -43,10 +43,10 @@ def holes(track: Track, limits: Limits) -> list[tuple[int, int]]:
     rule="the last sample of a transform arrives more than {periods:g} periods, {seconds:g} s and "
     "a share of {share:g} of the recording before its end, while other streams continue. The "
     "transform has {samples:g} samples or more, and is not a detection of a camera without "
-    "child frames. A warning if all moving transforms end; a note if they end with a player's "
-    "data, without /clock. A warning if the recording has no later scan, point cloud or "
-    "range in the frame or below it. In this case, a note for a frame without children, and "
-    "for a part of a robot that did not move or has been silent for less than 60 s",
+    "child frames. A warning if all moving transforms end; a note if a player of recordings "
+    "sent them and no /clock continues. A warning if the recording has no later scan, point "
+    "cloud or range in the frame or below it. In this case, a note for a frame without "
+    "children, and for a part of a robot that did not move or has been silent for less than 60 s",
     headline="{where} {concerned:stops|stop} before the end",
     detail="{edge}: last stamp {last:moment}, which arrived {before:span} before the end; came "
     "every {period:span}",
@@ -169,14 +169,15 @@ def is_detection(model: Model, track: Track) -> bool:
     Severity.WARNING,
     rule="the largest step between two samples is above {periods:g} periods and {seconds:g} s, "
     "among {samples:g} samples or more. A note for transforms that are published on change "
-    "(variation above {variation:g}), and for a gap below {note:g} s. A note also if no scan, "
-    "point cloud or range in the frame or below it has a stamp in the gap, unless the "
-    "transform places a robot in the world. A transform that places a robot in the world is "
-    "also reported for {times:g} gaps of {again:g} s and {missed:g} periods or more, and for a "
-    "gap of {lost:g} s and {lost_periods:g} periods or more across which it turns by "
-    "{turned:g}°. A transform with one exact period is also reported if a share of {share:g} "
-    "and {few:g} samples or more are missing. A note if it turns by less than {lossy:g}° "
-    "across each of these gaps, and for a part of a robot that no sensor uses",
+    "(standard deviation of the steps divided by their mean above {variation:g}), and for a gap "
+    "below {note:g} s. A note also if no scan, point cloud or range in the frame or below it "
+    "has a stamp in the gap, unless the transform places a robot in the world. A transform "
+    "that places a robot in the world is also reported for {times:g} gaps of {again:g} s and "
+    "{missed:g} periods or more, and for a gap of {lost:g} s and {lost_periods:g} periods "
+    "or more across which it turns by {turned:g}°. A transform with one exact period is also "
+    "reported if a share of {share:g} and {few:g} samples or more are missing. A note if it "
+    "turns by less than {lossy:g}° across each of these gaps, and for a part of a robot that no "
+    "sensor uses",
     headline="{where} {concerned:has a gap|have gaps}{often}",
     detail="{edge}: nothing from {begin:moment} to {end:moment} ({length:span}; usually every "
     "{period:span}){why}{beside}",

@@ -92,9 +92,9 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
     "publisher-conflict",
     Severity.ERROR,
     rule="two publishers with at least {least:g} samples each send a transform at the same time, "
-    "and their values differ by more than {metres:g} m (or {degrees:g}°) and by more than one "
-    "step. If each publisher has one pose, {mounts:g} m (or {mount_degrees:g}°) are enough. If "
-    "the publishers are unknown, one of two patterns counts. First, {stamps:g} "
+    "and their values differ by more than {metres:g} m (or {degrees:g}°) plus the usual step "
+    "between two samples. If each publisher has one pose, {mounts:g} m (or {mount_degrees:g}°) are "
+    "enough. If the publishers are unknown, one of two patterns counts. First, {stamps:g} "
     "stamps or more have two values that differ so much, and one of the values interrupts the "
     "motion of the other. Second, the samples alternate between two tracks; a sample belongs "
     "to a track within {reach:g} m + {speed:g} m/s, where a radian counts as half a metre. "

@@ -153,13 +153,14 @@ def _fate(model: Model, track: Track, place: int, severity: Severity) -> tuple[s
     "teleport",
     Severity.WARNING,
     rule="a step is above {metres:g} m at more than {speed:g} m/s (or above {radians:g} rad at "
-    "more than {turning:g} rad/s), and its speed is {times:g} times the 95 % quantile. Such "
-    "steps are at most a share of {share:g} of all steps ({triggered:g} if each step comes "
-    "within 50 ms after a position message) or at most {few:g} steps, among {samples:g} "
+    "more than {turning:g} rad/s), and its speed is {times:g} times the 95 % quantile of all "
+    "speeds. Such steps are at most a share of {share:g} of all steps ({triggered:g} if each "
+    "step comes within 50 ms after a position message) or at most {few:g} steps, among {samples:g} "
     "samples or more of one publisher. A note for a part of a robot if no sensor message is "
-    "in its frame. For a localiser: {corrections:g} steps or more that move the robot by "
-    "{corrected:g} m, without an initial pose. For an object that a camera detects: "
-    "{corrections:g} steps or more of {detected:g} m and 2 m/s within 1 s",
+    "in its frame. A localiser is reported for {corrections:g} steps or more that move the "
+    "robot by {corrected:g} m, not counting the step to an initial pose. An object that a "
+    "camera detects is reported for {corrections:g} steps or more of {detected:g} m and 2 m/s "
+    "within 1 s",
     headline="{named}",
     detail="{edge}: {jump:m} and {turn:deg} at {at:moment}, {count:times}{others}{usual}{after}",
     consequence="things placed before and after the jump do not fit together{also}",
