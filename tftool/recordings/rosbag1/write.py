@@ -7,6 +7,7 @@ import os
 import struct
 from array import array
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
 
@@ -28,6 +29,7 @@ from tftool.recordings.rosbag1.format import (
     INDEX,
     U32,
     U64,
+    records_in,
 )
 
 COMPRESSIONS: Final = ("none", "bz2", "lz4")
@@ -35,6 +37,7 @@ COMPRESSIONS: Final = ("none", "bz2", "lz4")
 CHUNK_SIZE: Final = 768 * 1024
 """Default size of a chunk's uncompressed messages, bytes, as in ROS 1."""
 
+_INDEX_FIELDS: Final = ("op", "ver", "conn", "count")
 _HEADER_SIZE: Final = 4096  # bytes of the bag's header record, which is written again at the end
 _BEFORE: Final = b"\x26\x00\x00\x00\x04\x00\x00\x00op=\x02\x09\x00\x00\x00conn="
 _BETWEEN: Final = b"\x0d\x00\x00\x00time="
@@ -192,12 +195,8 @@ class Rosbag1Writer(ChunkedWriter):
         counts = {}
         for number, index in indexes.items():
             counts[number] = len(index) // 3
-            described = {
-                "op": INDEX,
-                "ver": U32.pack(1),
-                "conn": U32.pack(number),
-                "count": U32.pack(counts[number]),
-            }
+            values = INDEX, U32.pack(1), U32.pack(number), U32.pack(counts[number])
+            described = dict(zip(_INDEX_FIELDS, values, strict=True))
             parts.append(record(described, index.tobytes()))
         self._note_chunk(low if counts else 0, high, counts)
         self._put(b"".join(parts))
@@ -220,10 +219,20 @@ class Rosbag1Writer(ChunkedWriter):
         """Do nothing, because a chunk of a bag ends only when it is full."""
 
     def copy_chunk(self, chunk: Chunk) -> None:
-        """Copy a chunk and its index from another bag."""
+        """Copy a chunk and its index from another bag.
+
+        The headers of the index are written anew: readers such as rosbags expect the fields of all
+        indexes of a bag in one order.
+        """
         self.flush()
         self._note_chunk(chunk.start, chunk.end, chunk.counts or {})
-        self._copy(chunk.raw())
+        whole = chunk.raw()
+        self._copy(replace(whole, length=chunk.length))
+        indexes = chunk.reader.at(whole.place + chunk.length, whole.length - chunk.length)
+        for fields, first, last in records_in(indexes):
+            named = {name.decode("latin-1"): value for name, value in fields.items()}
+            usual = {name: named.pop(name) for name in _INDEX_FIELDS if name in named}
+            self._put(record(usual | named, indexes[first:last]))
 
     def _note_chunk(self, start: Stamp, end: Stamp, counts: Mapping[int, int]) -> None:
         for number, count in counts.items():
