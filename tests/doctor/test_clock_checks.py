@@ -248,6 +248,13 @@ def test_wheels_on_another_clock_than_their_simulated_robot_are_no_real_device(i
     (fix,) = found(made, "clock-mixture").fixes
     assert fix.text.startswith("set use_sim_time: true") is is_described
 
+    # robot_state_publisher copies the stamps of joint states, so their publisher is wrong.
+    stamps = [stamp for stamp, *_ in made.records["cart", "wheel", False]]
+    rows = [(stamp, made.log(0.08 * tick), "") for tick, stamp in enumerate(stamps)]
+    made.heard["/joint_states"] = ("sensor_msgs/JointState", rows)
+    (fix,) = found(made, "clock-mixture").fixes
+    assert fix.text.endswith("the node that publishes /joint_states") is is_described
+
 
 def test_dating_ahead_by_a_period_or_of_a_constant_is_by_design():
     made = robot()

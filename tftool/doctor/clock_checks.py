@@ -94,6 +94,10 @@ def clock_mixture(model: Model, limits: Limits) -> Iterator[Hit]:
         severity = Severity.WARNING
         if not any(track.child in model.joint_above for track in tracks):
             fix = Fix("a real device beside a simulated robot is right as it is")
+        elif copied := [topic for topic in model.joint_topics if _are_copies(model, tracks, topic)]:
+            # robot_state_publisher gives transforms the stamps of the joint states.
+            words = model.words["sim_time_of"].format(setting=setting, edge=several(copied))
+            fix = Fix(f"these stamps are those of {several(copied)}: {words}")
     yield Hit(
         frames=apart,
         severity=severity,
@@ -116,6 +120,12 @@ def clock_mixture(model: Model, limits: Limits) -> Iterator[Hit]:
         fixes=(fix,),
         alone=True,
     )
+
+
+def _are_copies(model: Model, tracks: list[Track], topic: str) -> bool:
+    """Whether nearly all samples of some edges have the stamp of a message on a topic."""
+    told = model.evidence.headers[topic].stamps
+    return all(float(np.mean(np.isin(track.stamps, told))) > 0.9 for track in tracks)
 
 
 def _placed(model: Model) -> list[Heard]:

@@ -478,19 +478,23 @@ def coarse_odometry(model: Model, limits: Limits) -> Iterator[Hit]:
     why="tf2 interpolates between two samples, and never extrapolates from a single sample",
     because_of=(
         ("child", "static-and-dynamic"),
-        ("edge", "zero-stamp"),
+        ("edge", "zero-stamp placeholder-pose"),
     ),
 )
 def single_sample(model: Model, limits: Limits) -> Iterator[Hit]:
     """A moving frame has only one sample."""
     for track in model.dynamic:
         if len(track.stamps) == 1 and len(track.by_stamp) == 1:
-            beside, fixes = "", list[Fix]()
+            sender = several(track.nodes) or "its publisher"
+            beside, fix = (
+                "",
+                Fix(f"if the frame rests, let {sender} send it on /tf_static, else regularly"),
+            )
             alike = [other for other in model.dynamic if _is_sibling(track, other)]
             if alike and is_detection(model, track):
                 names = [f"{one.child} {count(len(one.stamps), 'time')}" for one in alike]
                 beside = f"; {several(names, 3)}"
-                fixes.append(Fix("probably a false detection: look whether the object was there"))
+                fix = Fix("probably a false detection: look whether the object was there")
             is_all = len(model.tracks) == 1 and not model.heard
             is_shown = _is_used(model, track) and not is_all
             yield hit_of(
@@ -499,8 +503,8 @@ def single_sample(model: Model, limits: Limits) -> Iterator[Hit]:
                 topics=track.topics,
                 count=1,
                 severity=None if is_shown else Severity.NOTE,
-                fixes=tuple(fixes),
-                group=beside,
+                fixes=(fix,),
+                group=f"{fix.text}{beside}",
             )
 
 

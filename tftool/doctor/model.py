@@ -219,10 +219,15 @@ class Model:
         return tuple(tree for tree in self.trees if nodes and tree.root in of[nodes[0]])
 
     @cached_property
+    def joint_topics(self) -> tuple[str, ...]:
+        """Topics of joint states that have messages."""
+        headers = self.evidence.headers.items()
+        return tuple(topic for topic, h in headers if h.type == JOINT_STATES and len(h))
+
+    @cached_property
     def lacks_state_publisher(self) -> bool:
         """Whether joint states arrived, but all transforms come from odometry or localisers."""
-        came = any(h.type == JOINT_STATES and len(h) for h in self.evidence.headers.values())
-        return came and all(track.is_odometry for track in self.tracks)
+        return bool(self.joint_topics) and all(track.is_odometry for track in self.tracks)
 
     @cached_property
     def start(self) -> Stamp:

@@ -60,7 +60,7 @@ def with_placeholders(model: Model) -> list[list[Track]]:
     groups: dict[tuple[str, int], list[Track]] = defaultdict(list)
     changes: dict[tuple[str, int], int] = defaultdict(int)
     for track in model.dynamic:
-        if len(track.publishers) != 1 or len(track.by_stamp) < 2:
+        if len(track.publishers) != 1 or not len(track.by_stamp):
             continue
         zero = _is_zero(track)
         if not zero.any() or not is_detection(model, track):
