@@ -34,7 +34,7 @@ def test_a_report_says_what_was_read_what_is_wrong_what_is_fine_and_how_much():
     # 400 transforms of odometry and two static ones; base_link, laser, odom and the camera's two
     # frames.
     assert shown(findings.render(jumping().judged())).splitlines() == [
-        "made up: columns, 8.0 s, 2 topics, 5 frames, 2 trees, 402 transforms",
+        "made up: columns, 8.0 s, 4 topics, 5 frames, 2 trees, 402 transforms",
         "",
         "error  split-tree: camera_link is not joined to the tree of odom",
         "       tree 2: camera_link, camera_optical; used by /points (80 messages)",

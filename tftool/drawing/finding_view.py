@@ -432,19 +432,19 @@ def _marked(text: str) -> str:
 
 def _general(text: str) -> str:
     """Replace each placeholder of a message template by its name in capitals."""
-    parts, follows = [], False
-    for literal, name, spec, _ in Formatter().parse(in_words(text)):
-        parts.append(literal)
-        if spec and "|" in spec:
-            parts.append(spec.partition("|")[0])
-            follows = False
-            continue
-        # A field that follows a word or a field without a blank is an ending that may be empty.
-        is_ending = literal[-1:].isalpha() or (follows and not literal)
-        follows = True
-        if name is not None and not is_ending:
-            parts.append(name.split("[")[0].upper())
-    return "".join(parts)
+    shown, follows = "", False
+    fields = list(Formatter().parse(in_words(text)))
+    nexts = [literal for literal, *_ in fields[1:]]
+    for (literal, name, spec, _), after in zip(fields, [*nexts, ""], strict=True):
+        shown += literal
+        # A field that touches a word or a field is a prefix or an ending, and may be empty.
+        is_part = shown[-1:].isalpha() or (follows and not literal) or after[:1].isalpha()
+        follows = "|" not in (spec or "")
+        if spec and not follows:
+            shown += spec.partition("|")[0]
+        elif name is not None and not is_part:
+            shown += name.split("[")[0].upper()
+    return shown
 
 
 # For programs

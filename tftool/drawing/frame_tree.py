@@ -439,7 +439,7 @@ def _pruned(forest: Forest, kept: Collection[str]) -> Forest:
 
 
 def _key(info: FrameInfo, order: TreeOrder) -> tuple[object, ...]:
-    """Return the key by which frames are sorted: high rates or ages first, static last."""
+    """Return the key by which frames are sorted: high rates or ages first, static frames last."""
     still = info.is_static or info.parent is None
     if order is TreeOrder.rate:
         return (still, -info.rate if info.samples > 1 else 0.0, info.frame)

@@ -182,7 +182,7 @@ def wrap_words(sentence: str, width: int) -> list[str]:
 
 
 def rest_of_list(below: int, above: int, *, ascii_only: bool) -> str:
-    """Return text about the numbers of hidden rows below and above a list; "" for none."""
+    """Return text with the numbers of a list's rows hidden below and above; "" for none."""
     up, down = ("^", "v") if ascii_only else ("↑", "↓")
     words = [f"{down} {below} more"] if below else []
     return "   ".join(words + ([f"{up} {above} above"] if above else []))

@@ -116,7 +116,7 @@ def _shortest(number: float) -> str:
 
 
 def _whole(values: Stamps) -> Words:
-    """Format whole numbers, shape (n,), as digits in 32-bit words of four bytes, shape (n, w)."""
+    """Format whole numbers, shape (n,), as text with four characters per word, shape (n, w)."""
     return _digits(values[:, np.newaxis], b"")[:, 0]
 
 
