@@ -74,8 +74,8 @@ class Target:
                 raise UsageError(f"'{path}' is a device or a pipe: name a regular file.")
             if path.is_dir() and not _is_recording_folder(path):
                 raise UsageError(
-                    f"'{path}' is a folder that contains more than a recording, which --force "
-                    "does not replace: choose another name."
+                    f"'{path}' is a folder that contains more than a recording. --force does not "
+                    "replace such a folder: choose another name."
                 )
         try:
             self._clear()

@@ -286,7 +286,7 @@ class _Batch:
         return missing
 
     def held(self, links: Iterable[Link]) -> tuple[Link, ...]:
-        """Return copies of the links, whose samples stay unchanged until the end of the batch."""
+        """Return copies of links; the samples of the copies stay unchanged until the batch ends."""
         found: list[Link] = []
         for link in links:
             held = self.columns.of(link)

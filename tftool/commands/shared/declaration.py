@@ -179,7 +179,7 @@ class CommandKind:
         descriptions: Whether FROM may be a robot description.
         urdf: Whether the command has the option --urdf, which gives the robot description for a
             recording that contains none.
-        poses: Whether FROM may be a pose file although the command shares no session.
+        poses: Whether FROM may be a pose file, for a command that reads no recordings.
         settings: Settings of click's parser that differ from the defaults.
     """
 

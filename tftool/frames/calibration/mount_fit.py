@@ -330,7 +330,7 @@ _SMALLEST, _LARGEST = np.radians(12.0), np.radians(150.0)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MotionPairs:
-    """Relative motions of the two moving frames, A and B, between the times of each pair.
+    """Motions of the two moving frames, A and B, over the same n pairs of times, one per row.
 
     Attributes:
         turns_a: Rotation vectors of A, radians about the axes of A, shape (n, 3).
@@ -350,7 +350,7 @@ class MotionPairs:
 
 
 def pairs_of(problem: Problem, offset: float, longest: float = 10.0) -> MotionPairs:
-    """Choose pairs of poses at most `longest` seconds apart, where A turns far, up to 150°."""
+    """Choose pairs of poses at most `longest` seconds apart; A turns at most 150° in between."""
     places, turns, valid = problem.a.at(problem.times + offset)
     known = np.flatnonzero(valid)
     dice = np.random.default_rng(0)

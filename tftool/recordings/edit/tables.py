@@ -141,7 +141,7 @@ class Kinds:
         return found, np.concatenate(rest) if rest else which[:0]
 
     def _add(self, known: list[MessageKind], payload: bytes) -> bool:
-        """Add a kind to `known` with the example `payload`; return False for an unusual message."""
+        """Add the kind of `payload` to `known`; return False if it cannot be changed in bulk."""
         if len(known) >= _MOST_KINDS:
             return False
         try:

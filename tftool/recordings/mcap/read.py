@@ -365,7 +365,10 @@ class Mcap(ChunkedReader):
         low, high, size, crc = CHUNK_HEAD.unpack_from(head, 9)
         (length,) = U32.unpack_from(head, 37)
         if length > LONGEST_METHOD:
-            raise InputError(f"the name of a compression has {length} bytes")
+            raise InputError(
+                f"the name of a chunk's compression has {length} bytes, and at most "
+                f"{LONGEST_METHOD} are allowed"
+            )
         method = head[41 : 41 + length].decode("utf-8", "surrogateescape")
         (packed,) = U64.unpack_from(head, 41 + length)
         place = position + 49 + length
