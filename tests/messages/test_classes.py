@@ -1,6 +1,9 @@
 import array
 import copy
 import math
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from threading import Barrier
 
 import pytest
 
@@ -270,3 +273,24 @@ def test_a_service_has_its_event_and_an_action_what_ros_2_makes_of_it():
     assert fibonacci.Impl.FeedbackMessage().feedback == fibonacci.Feedback()
     assert fibonacci.Impl.CancelGoalService is INTERFACES.find("action_msgs", "srv", "CancelGoal")
     assert fibonacci.Impl.GoalStatusMessage().status_list == []
+
+
+def test_threads_that_need_one_class_at_the_same_time_get_the_same_class():
+    before = sys.getswitchinterval()
+    sys.setswitchinterval(1e-6)
+    try:
+        for _ in range(10):
+            interfaces, start = Interfaces(), Barrier(8)
+
+            def ask(interfaces=interfaces, start=start):
+                start.wait()
+                return (
+                    interfaces.message("nav_msgs/Odometry"),
+                    interfaces.find("lifecycle_msgs", "srv", "ChangeState"),
+                )
+
+            with ThreadPoolExecutor(8) as pool:
+                found = {one.result() for one in [pool.submit(ask) for _ in range(8)]}
+            assert len(found) == 1
+    finally:
+        sys.setswitchinterval(before)

@@ -11,6 +11,7 @@ import struct
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from operator import attrgetter
+from threading import RLock
 from typing import Any, ClassVar, Final
 
 from tftool.base.errors import InputError
@@ -247,6 +248,19 @@ class Interfaces(Schema):
     def __init__(self) -> None:
         super().__init__()
         self._made: dict[str, type[Any]] = {}
+        # Threads of several programs may need a class at the same time. It must be created once,
+        # because classes compare by identity. One class may need others, hence the RLock.
+        self._lock = RLock()
+
+    def _once(self, full: str, create: Callable[[], type[Any]]) -> type[Any]:
+        """Return the class with the name `full`; create the class if there is none."""
+        made = self._made.get(full)
+        if made is None:
+            with self._lock:
+                made = self._made.get(full)
+                if made is None:
+                    made = self._made[full] = create()
+        return made
 
     def add(self, package: str, texts: Mapping[tuple[str, str], str]) -> None:
         """Add the interface definitions of a user's package, by (kind, name)."""
@@ -266,10 +280,7 @@ class Interfaces(Schema):
         full = f"{package}/{kind}/{name}"
         if kind == "msg":
             return self.part(full)
-        made = self._made.get(full)
-        if made is None:
-            made = self._made[full] = self._compound(package, kind, name)
-        return made
+        return self._once(full, lambda: self._compound(package, kind, name))
 
     def message(self, name: str) -> type[Message]:
         """Return the class of a message, named "package/msg/Name" or "package/Name".
@@ -324,14 +335,14 @@ class Interfaces(Schema):
         return self._part(full, ())
 
     def _part(self, full: str, within: tuple[str, ...]) -> type[Message]:
-        made = self._made.get(full)
-        if made is None:
+        def create() -> type[Message]:
             if full in within:
                 raise InputError(f"{full} contains itself, so no message of this type can exist")
             if len(within) >= MOST_NESTED:
                 raise InputError(f"{full} is nested in more than {MOST_NESTED} levels of messages")
-            made = self._made[full] = self._class(self.structure(full), (*within, full))
-        return made
+            return self._class(self.structure(full), (*within, full))
+
+        return self._once(full, create)
 
     def _compound(self, package: str, kind: str, name: str) -> type[Any]:
         full = f"{package}/{kind}/{name}"
@@ -346,8 +357,8 @@ class Interfaces(Schema):
 
     def _derived(self, action: str) -> type[Any]:
         """Return the class `Impl` of an action, with its three services and two messages."""
-        made = self._made.get(f"{action}_Impl")
-        if made is None:
+
+        def create() -> type[Any]:
             services = {
                 f"{one}Service": _holder(
                     f"{action}_{one}",
@@ -358,7 +369,7 @@ class Interfaces(Schema):
                 )
                 for one in ("SendGoal", "GetResult")
             }
-            made = self._made[f"{action}_Impl"] = _holder(
+            return _holder(
                 f"{action}_Impl",
                 {
                     **services,
@@ -367,7 +378,8 @@ class Interfaces(Schema):
                     "GoalStatusMessage": self.message("action_msgs/GoalStatusArray"),
                 },
             )
-        return made
+
+        return self._once(f"{action}_Impl", create)
 
     def _class(self, structure: Structure, within: tuple[str, ...]) -> type[Message]:
         package, kind, name = structure.name.split("/")

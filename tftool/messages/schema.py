@@ -168,7 +168,7 @@ class Schema:
         """Whether a service or action was already parsed from another definition."""
         package, kind, name = full.split("/")
         known = self._texts.get(package, {}).get((kind, name), text)
-        return known != text and any(one.startswith(f"{full}_") for one in self._read)
+        return known != text and any(one.startswith(f"{full}_") for one in list(self._read))
 
     def knows(self, package: str, texts: Mapping[tuple[str, str], str]) -> bool:
         """Whether exactly these definitions were already added for a package."""

@@ -153,9 +153,10 @@ def _defined(ours: ModuleType) -> dict[str, Any]:
 
     Names that the module only imports are left out.
     """
+    # A copy, because another program's thread may import a submodule, which adds a name to `ours`.
     return {
         name: value
-        for name, value in vars(ours).items()
+        for name, value in vars(ours).copy().items()
         if not (name.startswith("_") or isinstance(value, ModuleType))
         and getattr(value, "__module__", ours.__name__) == ours.__name__
     }
@@ -420,7 +421,7 @@ def ros_modules() -> Iterator["_Finder"]:
         yield _finder
         return
     _finder = _Finder()
-    before = {name: module for name, module in sys.modules.items() if _is_theirs(name)}
+    before = {name: module for name, module in list(sys.modules.items()) if _is_theirs(name)}
     for name in before:
         del sys.modules[name]
     sys.meta_path.insert(0, _finder)
