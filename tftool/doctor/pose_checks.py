@@ -60,10 +60,10 @@ def with_placeholders(model: Model) -> list[list[Track]]:
     groups: dict[tuple[str, int], list[Track]] = defaultdict(list)
     changes: dict[tuple[str, int], int] = defaultdict(int)
     for track in model.dynamic:
-        if len(track.publishers) != 1 or not len(track.by_stamp):
+        if len(track.publishers) != 1 or not is_detection(model, track):
             continue
         zero = _is_zero(track)
-        if not zero.any() or not is_detection(model, track):
+        if not zero.any():
             continue
         key = track.parent, int(track.senders[0])
         groups[key].append(track)
@@ -115,9 +115,12 @@ def frozen_pose(model: Model, limits: Limits) -> Iterator[Hit]:
     for track in model.dynamic:
         if track.is_localisation or track.edge in invalid:
             continue
-        senders = track.senders[track.by_stamp]
-        for sender in np.unique(senders).tolist():
-            hit = _frozen(track, track.by_stamp[senders == sender], limits)
+        parts = [track.by_stamp]
+        if len(track.publishers) > 1:
+            senders = track.senders[track.by_stamp]
+            parts = [track.by_stamp[senders == sender] for sender in np.unique(senders).tolist()]
+        for places in parts:
+            hit = _frozen(track, places, limits)
             if hit is not None:
                 yield hit
                 break
@@ -131,7 +134,8 @@ def _frozen(track: Track, places: Places, limits: Limits) -> Hit | None:
         places: Indices of the publisher's samples, sorted by stamp, shape (n,).
         limits: Thresholds of `frozen-pose`.
     """
-    strides = track.apart(places[1:], places[:-1])
+    is_all = places is track.by_stamp
+    strides = track.strides if is_all else track.apart(places[1:], places[:-1])
     if not (strides >= limits["metres"]).any():
         return None
     stamps = track.stamps[places]
