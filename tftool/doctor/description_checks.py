@@ -69,10 +69,9 @@ def joint_without_state(model: Model, limits: Limits) -> Iterator[Hit]:
     robot, told = model.evidence.robot, model.evidence.joints
     if robot is None or told is None:
         return
-    topics = sorted(one.name for one in model.evidence.topics if one.type == JOINT_STATES)
-    is_silent = bool(topics) and not any(
-        one.count for one in model.evidence.topics if one.type == JOINT_STATES
-    )
+    recorded = [one for one in model.evidence.topics if one.type == JOINT_STATES]
+    topics = sorted(one.name for one in recorded)
+    is_silent = bool(recorded) and not any(one.count for one in recorded)
     for joint in robot.joints.values():
         child = model.prefix + joint.child
         if not joint.moves or joint.mimic is not None or joint.name in told:

@@ -199,24 +199,23 @@ class Model:
             return False
         if any(topic.static for topic in self.evidence.topics):
             return True
-        return bool(self.parted) or all(
+        return self.is_parted or all(
             track.moves or len(track.by_stamp) < 2 or track.is_odometry for track in self.dynamic
         )
 
     @cached_property
-    def parted(self) -> tuple[Tree, ...]:
-        """Trees that contain frames of the same robot_state_publisher; empty for a single tree.
+    def is_parted(self) -> bool:
+        """Whether one robot_state_publisher sends frames of several trees, without any statics.
 
         A robot description is one tree, so the fixed joints between these trees are missing. Early
         ROS 1 sends fixed joints on /tf, half a second ahead; then they are not missing.
         """
-        of: dict[str, set[str]] = defaultdict(set)
+        roots: dict[str, set[str]] = defaultdict(set)
         for track in () if self.statics else self.dynamic:
             if track.median_latency > -_AHEAD:
                 for node in track.nodes:
-                    of[node].add(self.tree_of[track.child].root)
-        nodes = [node for node in of if "state_publisher" in node and len(of[node]) > 1]
-        return tuple(tree for tree in self.trees if nodes and tree.root in of[nodes[0]])
+                    roots[node].add(self.tree_of[track.child].root)
+        return any("state_publisher" in node and len(roots[node]) > 1 for node in roots)
 
     @cached_property
     def joint_topics(self) -> tuple[str, ...]:

@@ -189,7 +189,7 @@ def nothing_says(model: Model, root: str, mount: str = "") -> Fix:
         mount: Command that publishes the root as a sensor's mount; empty for other frames.
     """
     is_cut = model.lacks_statics and model.evidence.recorded
-    if is_cut and model.parted:
+    if is_cut and model.is_parted:
         return Fix(
             "robot_state_publisher sends frames of several trees, so the transforms that join them "
             f"are static, and not in the recording: {model.words['record']}"
