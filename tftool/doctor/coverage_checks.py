@@ -334,7 +334,7 @@ def sensor_outruns_tf(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _waiting(model: Model, limits: Limits) -> Iterator[tuple[Heard, Waits]]:
-    """Yield each topic of which every message needs a lookup, with the messages' waiting times."""
+    """Yield each topic whose messages all need a lookup, with the waiting times of the messages."""
     fixed = model.sensor_frame
     around = {track.parent for track in model.above(fixed)}
     for heard in model.heard:

@@ -17,7 +17,7 @@ from tftool.base.errors import InputError
 from tftool.base.named_files import read_named_text
 
 MARKS = ("package.xml", "setup.py", "setup.cfg", "pyproject.toml")
-"""Names of files, each of which alone makes a folder a package."""
+"""Names of files that make a folder a package; one such file is enough."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -109,7 +109,7 @@ class AsyncParameterClient:
     def load_parameter_file(
         self, parameter_file: str, use_wildcard: bool = False, callback: Callback | None = None
     ) -> Future:
-        """Request to set a file's parameters, each of which the node accepts or rejects."""
+        """Request to set a file's parameters; the node accepts or rejects each parameter."""
         return self.set_parameters(_of_file(parameter_file, use_wildcard), callback)
 
     def load_parameter_file_atomically(

@@ -66,7 +66,7 @@ class TransformRegistration:
 
 
 class ConvertRegistration:
-    """Registry of functions, each of which converts one type of data to another type."""
+    """Registry of functions that convert one type of data to another type."""
 
     def add_from_msg(self, key: Any, callback: Callable[[Any], Any]) -> None:
         """Register `callback`, which converts a message to an object of the type `key`."""
