@@ -1,4 +1,4 @@
-/* tftool view; three.js: see three-LICENSE.txt; sources 1a27403e347817c90780fe0efc8847bc89a655af2af6ee5f5ab90dc3a2671368 */
+/* tftool view; three.js: see three-LICENSE.txt; sources 0d9da521e4cd18a08d06c41349fb0f6d407bcad05781ef1568b2a8a182e4ff84 */
 "use strict";(()=>{/**
  * @license
  * Copyright 2010-2026 Three.js Authors

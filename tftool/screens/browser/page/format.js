@@ -22,7 +22,7 @@ const LONG = 20; // characters; a longer name may not fit beside the rate
 const TAIL = 12;
 
 /**
- * Split a name into two parts, of which the second is always visible: names of one device differ
+ * Split a name into two parts; the second part is always visible, as names of one device differ
  * at the end. Only left-to-right text of simple characters is split.
  * @param {string} name
  */
