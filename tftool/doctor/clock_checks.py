@@ -13,6 +13,7 @@ from tftool.doctor.model import Limits, Model, Shift
 from tftool.doctor.stamp_checks import COMPARE_CLOCKS
 from tftool.doctor.stamp_stream import JOINT_STATES, Heard, Track
 from tftool.doctor.wording import several, span
+from tftool.recordings.contract import percentile
 
 check = checks_of(Area.CLOCKS)
 
@@ -493,7 +494,7 @@ def _groups_apart(model: Model, limits: Limits) -> Iterator[Hit]:
     for one in streams:
         if len(one.stamps) < limits["samples"] or one.families[0]:
             continue  # a simulation has a single clock
-        least, high = int(one.latency.min()), float(np.percentile(one.latency, 95))
+        least, high = int(one.latency.min()), percentile(one.latency, 95)
         # Stamping ahead is a choice; a scan stamped with its start arrives one period later.
         if least < -limits["spread"] * NANOSECONDS or _is_one_period(one):
             continue

@@ -18,7 +18,7 @@ from tftool.doctor.ros_words import is_ros1
 from tftool.doctor.stamp_checks import stands_still
 from tftool.doctor.stamp_stream import NEVER, PLACED, Heard, Track, last_part
 from tftool.doctor.wording import ALIKE, arrival, least_rate, rounded_up, span
-from tftool.recordings.contract import Stamps
+from tftool.recordings.contract import Stamps, percentile
 
 check = checks_of(Area.COVERAGE)
 
@@ -176,7 +176,7 @@ def latched_overwrite(model: Model, limits: Limits) -> Iterator[Hit]:
     kept = 1 if is_ros1(model.evidence) else int(limits["kept"])
     held: dict[str, dict[int, set[str]]] = defaultdict(lambda: defaultdict(set))
     for edge in transforms.edges:
-        for message in np.unique(edge.messages).tolist() if edge.static else ():
+        for message in dict.fromkeys(edge.messages.tolist()) if edge.static else ():
             # ROS 1's player latches one message for each recorded publisher.
             node = transforms.publishers[transforms.senders[message]].node
             held[node][message].add(edge.child)
@@ -515,9 +515,7 @@ def cache_short(model: Model, limits: Limits) -> Iterator[Hit]:
         latency = heard.latency[heard.stamps != 0]
         if not len(latency):
             continue
-        if float(np.percentile(latency, 95)) > model.settings.cache_time and not stands_still(
-            heard
-        ):
+        if percentile(latency, 95) > model.settings.cache_time and not stands_still(heard):
             worst = int(latency.max())
             yield hit_of(
                 heard,

@@ -18,6 +18,7 @@ from tftool.geometry.rigid_arrays import (
     rotation_vectors,
     unit,
 )
+from tftool.recordings.contract import percentile
 
 SIGMAS = 5.0
 """Number of standard deviations of an edge's noise from which an unexplained change is a step."""
@@ -151,5 +152,5 @@ def _unexplained(changes: Floats, gaps: Floats) -> tuple[Floats, float]:
         lengths.append(np.linalg.norm(changes - before - share[:, None] * between, axis=1))
         apart.append(np.linalg.norm(changes - usual, axis=1))
     # Up to a quarter may be steps. 75 % of a normal distribution are within 1.15 deviations.
-    noise = float(np.percentile(np.minimum(*apart), 75)) / 1.15
+    noise = percentile(np.minimum(*apart), 75) / 1.15
     return np.minimum(*lengths), noise

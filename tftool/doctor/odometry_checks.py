@@ -11,6 +11,7 @@ from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_stream import BASES, Track, last_part
 from tftool.doctor.wording import metres
 from tftool.geometry.rigid_arrays import Floats, angles_between, rotate, unit
+from tftool.recordings.contract import percentile
 
 check = checks_of(Area.VALUES)
 
@@ -301,4 +302,4 @@ def _reach(positions: Floats, share: float) -> float:
     if not len(positions):
         return 0.0
     away = np.linalg.norm(positions - np.median(positions, axis=0), axis=1)
-    return float(np.percentile(away, share))
+    return percentile(away, share)

@@ -12,6 +12,7 @@ from tftool.doctor.gap_checks import is_detection
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_stream import Mask, Places, Track
 from tftool.doctor.wording import moment, several, span
+from tftool.recordings.contract import percentile
 
 check = checks_of(Area.VALUES)
 
@@ -142,7 +143,7 @@ def _frozen(track: Track, places: Places, limits: Limits) -> Hit | None:
     turned = (track.rotations[places[1:]] != track.rotations[places[:-1]]).any(axis=1)
     moves = np.flatnonzero((strides > 0.0) | turned)
     speeds = strides / np.maximum(np.diff(stamps) / NANOSECONDS, _SHORT)
-    usual = float(np.percentile(speeds[moves], 95))
+    usual = percentile(speeds[moves], 95)
     # Between two moves, the pose is frozen. Two steps after the jump show the speed.
     is_followed = moves[1:] + 2 < len(strides)
     froze, ends = moves[:-1][is_followed] + 1, moves[1:][is_followed]

@@ -12,7 +12,7 @@ from tftool.doctor.model import Limits, Model
 from tftool.doctor.ros_words import is_ros1
 from tftool.doctor.stamp_stream import Heard, Mask, Places, Track, last_part, unsorted_share
 from tftool.doctor.wording import moment, several, span
-from tftool.recordings.contract import Stamps
+from tftool.recordings.contract import Stamps, percentile
 
 check = checks_of(Area.CLOCKS)
 
@@ -448,7 +448,7 @@ def _falls_behind(model: Model, track: Track | Heard, limits: Limits) -> Hit | N
     else:
         share, told, least, times = 95, "one in twenty", limits["burst"], limits["rarely"]
         is_judged = _is_regular_pose(track)
-    usual, tenth = (int(one) for one in np.percentile(track.latency, (50, share)))
+    usual, tenth = (int(percentile(track.latency, percent)) for percent in (50, share))
     if not is_judged or tenth < max(least * NANOSECONDS, times * usual):
         return None
     late = np.flatnonzero(track.latency >= tenth)
@@ -458,7 +458,7 @@ def _falls_behind(model: Model, track: Track | Heard, limits: Limits) -> Hit | N
         other.name
         for other in others
         if len(other.stamps) > _FEWEST_LATE
-        and 4 * np.abs(np.percentile(other.latency, (5, 95))).max() < tenth
+        and 4 * max(abs(percentile(other.latency, percent)) for percent in (5, 95)) < tenth
     ]
     if not prompt:
         return None
@@ -563,7 +563,7 @@ def _are_same(track: Track, some: Places, other: Track, others: Places) -> Mask:
 
 
 def _late(model: Model, stream: "Track | Heard") -> Hit:
-    low, high = (int(one) for one in np.percentile(stream.latency, (10, 90)))
+    low, high = (int(percentile(stream.latency, percent)) for percent in (10, 90))
     varies = f", from {span(low)} to {span(high)} for 80 %" if high - low > _STEADY else ""
     shown = _relayed_late(model, stream)
     for other in model.heard if isinstance(stream, Track) else ():

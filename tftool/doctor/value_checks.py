@@ -17,7 +17,7 @@ from tftool.doctor.wording import metres, moment, several, span
 from tftool.geometry.quaternions import IDENTITY, Triple, angle_between, multiply, rotate
 from tftool.geometry.rigid_arrays import Floats, rotation_vectors, unit
 from tftool.geometry.rigid_arrays import rotate as rotate_all
-from tftool.recordings.contract import Stamps
+from tftool.recordings.contract import Stamps, percentile
 
 check = checks_of(Area.VALUES)
 
@@ -426,7 +426,7 @@ def _jumps(
     times: float,
 ) -> "np.ndarray[tuple[int], np.dtype[np.bool_]]":
     speeds = steps / gaps
-    limit = max(speed, times * float(np.percentile(speeds, 95)))
+    limit = max(speed, times * percentile(speeds, 95))
     found: np.ndarray[tuple[int], np.dtype[np.bool_]] = (steps > least) & (speeds > limit)
     return found
 

@@ -24,6 +24,7 @@ from tftool.doctor.ros_words import in_words
 from tftool.doctor.stamp_stream import Heard, Stream, Track, rate
 from tftool.doctor.wording import MOST_IN_LINE, filled, several, span
 from tftool.drawing import report_view as judgements
+from tftool.recordings.contract import percentile
 
 SCHEMA = "tftool.doctor/2"
 
@@ -312,11 +313,10 @@ def _numbers(stream: Stream, *, timed: bool) -> tuple[str, str, str, str]:
         return "", "", "", ""
     steps = np.diff(np.sort(stream.stamps))
     often = rate(stream)
-    p50, p95 = np.percentile(stream.latency, (50, 95)) if timed else (0, 0)
     return (
         f"{often:.4g} Hz" if often else "",
-        span(float(p50)) if timed else "",
-        span(float(p95)) if timed else "",
+        span(percentile(stream.latency, 50)) if timed else "",
+        span(percentile(stream.latency, 95)) if timed else "",
         span(int(steps.max())) if len(steps) else "",
     )
 

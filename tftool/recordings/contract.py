@@ -160,6 +160,19 @@ def median(column: Stamps) -> float:
     return (float(middle[half - 1]) + float(middle[half])) / 2.0
 
 
+def percentile(values: npt.NDArray[np.int64] | npt.NDArray[np.float64], percent: float) -> float:
+    """Return a percentile of one or more numbers, like `numpy.percentile`.
+
+    numpy's function imports `numpy.ma`, which takes a tenth of the time of a short command.
+    """
+    place = percent / 100.0 * (len(values) - 1)
+    low = int(place)
+    high = min(low + 1, len(values) - 1)
+    parted = np.partition(values, (low, high))
+    first, second = parted[low].item(), parted[high].item()
+    return float(first + (second - first) * (place - low))
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Headers:
     """Headers of one topic's messages as columns, in the recording's order.
