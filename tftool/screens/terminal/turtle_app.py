@@ -32,7 +32,7 @@ from tftool.screens.terminal.text_style import wrapped
 from tftool.screens.terminal.world_app import FRAME_CSS, Panel, PanelApp
 from tftool.world.nodes.turtle_drivers import IdleDrawing
 
-LOOKS_PER_SECOND = 12
+LOOKS_PER_SECOND = 10
 
 WITH_WRAPPED_LOG = 36
 """Smallest number of rows with the newest log message wrapped rather than cut."""
