@@ -272,10 +272,10 @@ def test_an_encoding_that_does_not_exist_is_named(tmp_path):
 def test_a_launch_file_that_is_run_as_a_node_names_the_command_for_it(tmp_path):
     from tftool.base.errors import UsageError
     from tftool.ros.host.workspace import Workspace
-    from tftool.ros.running import check_program
+    from tftool.ros.running import find_program
 
     with pytest.raises(UsageError, match=r"x\.launch\.py' is a launch file: 'tftool launch x"):
-        check_program(Workspace(tmp_path), "x.launch.py", [])
+        find_program(Workspace(tmp_path), "x.launch.py", [])
 
 
 def test_every_tag_of_the_table_belongs_to_an_action_or_a_substitution():

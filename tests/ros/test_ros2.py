@@ -6,7 +6,7 @@ import pytest
 
 from tests.ros.test_launch import described
 from tftool.base.errors import NodeFailed, UsageError
-from tftool.ros.host import rosidl_runtime, user_code
+from tftool.ros.host import rosidl_runtime
 from tftool.ros.host.workspace import Workspace
 from tftool.ros.ros2 import ros2_program
 from tftool.world.nodes.turtlesim import Turtlesim
@@ -21,7 +21,7 @@ def ran(ros_runtime, tmp_path, *words, seconds=5.0):
     lines, ended = [], []
     if not any(isinstance(node, Turtlesim) for node in ros_runtime.world.nodes):
         ros_runtime.ask(lambda: Turtlesim(ros_runtime.world))
-    body = user_code.whole(ros2_program.body(words, Workspace(tmp_path), lines.append))
+    body = ros2_program.body(words, Workspace(tmp_path), lines.append)
     (program,) = ros_runtime.ask(
         lambda: [Program(ros_runtime.world, "ros2", body, on_exit=ended.append)]
     )
@@ -242,7 +242,7 @@ def test_messages_are_echoed_in_part(ros_runtime, tmp_path):
 
     said = "{name: [long, ä], position: [1, 2, 3, 4]}"
     words = ["topic", "pub", "/joints", "sensor_msgs/msg/JointState", said, "-r", "10"]
-    body = user_code.whole(ros2_program.body(words, Workspace(tmp_path), lambda line: None))
+    body = ros2_program.body(words, Workspace(tmp_path), lambda line: None)
     ros_runtime.ask(lambda: [Program(ros_runtime.world, "pub", body, on_exit=lambda _: None)])
     ros_runtime.sleep(0.5)
 
@@ -294,7 +294,7 @@ def test_a_topic_is_published_and_described_with_the_quality_asked_for(ros_runti
 
     words = ["topic", "pub", "/word", "std_msgs/msg/String", "--qos-durability", "transient_local",
              "--qos-reliability", "best_effort", "--qos-depth", "7"]  # fmt: skip
-    body = user_code.whole(ros2_program.body(words, Workspace(tmp_path), lambda line: None))
+    body = ros2_program.body(words, Workspace(tmp_path), lambda line: None)
     ros_runtime.ask(lambda: [Program(ros_runtime.world, "pub", body, on_exit=lambda _: None)])
     ros_runtime.sleep(0.5)
     _, lines = ran(ros_runtime, tmp_path, "topic", "info", "-v", "/word")

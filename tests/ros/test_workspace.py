@@ -341,7 +341,7 @@ def test_a_console_script_that_names_nothing_says_so(tmp_path):
     with RosRuntime() as runtime:
         from tftool.ros.host.program import Program
 
-        body = user_code.whole(user_code.entry_point_body("node", "main", root=folder))
+        body = user_code.entry_point_body("node", "main", root=folder)
         runtime.ask(lambda: Program(runtime.world, "it", body, on_exit=ended.append))
         runtime.sleep(0.1)
 

@@ -90,9 +90,7 @@ def start(world, executable, *words, package="pkg_tf", on_exit=None):
     options, arguments = names.parse(words)
     return executables.start(
         world,
-        Workspace(TUTORIAL),
-        package,
-        executable,
+        executables.find(Workspace(TUTORIAL), package, executable),
         label=f"{executable}-{len(world.nodes)}",
         argv=[executable, *words],
         arguments=arguments,

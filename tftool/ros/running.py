@@ -2,12 +2,13 @@
 
 import asyncio
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from tftool.base.errors import NodeFailed, UsageError
 from tftool.base.stamps import Duration
-from tftool.ros.host import executables, names, program, user_code
+from tftool.ros.host import executables, names, program
 from tftool.ros.host.error_text import error_sentence
 from tftool.ros.host.fibers import StuckError
 from tftool.ros.host.installation import faults_about
@@ -26,12 +27,33 @@ TURTLE_TOPICS = frozenset(("turtle1/cmd_vel", "turtle1/pose", "turtle1/color_sen
 """Topics of the first turtle: a program that uses one needs a turtlesim."""
 
 
-def check_program(workspace: Workspace, target: str, rest: Sequence[str]) -> None:
-    """Raise an error if `start_program` would reject the same arguments.
+@dataclass(frozen=True, slots=True)
+class FoundProgram:
+    """Program that a command line names, ready to be started.
+
+    Attributes:
+        package: Name of the package; None for a file.
+        name: Name of the file without suffix, or of the executable.
+        executable: The executable.
+        argv: The program's `sys.argv`.
+        arguments: The program's arguments, without the part after `--ros-args`.
+        options: Options after `--ros-args`.
+    """
+
+    package: str | None
+    name: str
+    executable: executables.Found
+    argv: Sequence[str]
+    arguments: Sequence[str]
+    options: names.RosOptions
+
+
+def find_program(workspace: Workspace, target: str, rest: Sequence[str]) -> FoundProgram:
+    """Find the Python file, or the executable of a package, that a command line names.
 
     Args:
         workspace: Workspace in which packages are searched.
-        target: Path of a file, or name of a package.
+        target: Path of the file, or name of the package.
         rest: Further words of the command line; for a package, the executable first.
 
     Raises:
@@ -39,112 +61,68 @@ def check_program(workspace: Workspace, target: str, rest: Sequence[str]) -> Non
             after `--ros-args` is malformed.
         InputError: If the file cannot be read or is not valid Python.
     """
-    words = rest
     if is_file(target):
         if ".launch." in Path(target).name:
             raise UsageError(f"'{target}' is a launch file: 'tftool launch {target}' runs it")
-        user_code.compile_file(file_of(workspace, target))
-    else:
-        _need_executable(workspace, target, rest)
-        executables.check(workspace, target, rest[0])
-        words = rest[1:]
-    names.parse(words)
-
-
-def _need_executable(workspace: Workspace, target: str, rest: Sequence[str]) -> None:
-    if rest and not rest[0].startswith("-"):
-        return
-    found = workspace.packages.get(target)
-    if found is None and Path(target).is_dir():
-        raise UsageError(f"'{target}' is a folder: give a node's file, or PACKAGE EXECUTABLE")
-    known = ", ".join(sorted(found.scripts)) if found is not None else ""
-    hint = f" ({known})" if known else ""
-    raise UsageError(
-        f"no executable of package '{target}' is named: add one.{hint} To run a file, give its path"
-    )
+        path = file_of(workspace, target)
+        found = executables.find(workspace, None, str(path))
+        options, arguments = names.parse(rest)
+        return FoundProgram(None, path.stem, found, [target, *rest], arguments, options)
+    if not rest or rest[0].startswith("-"):
+        package = workspace.packages.get(target)
+        if package is None and Path(target).is_dir():
+            raise UsageError(f"'{target}' is a folder: give a node's file, or PACKAGE EXECUTABLE")
+        known = ", ".join(sorted(package.scripts)) if package is not None else ""
+        hint = f" ({known})" if known else ""
+        raise UsageError(
+            f"no executable of package '{target}' is named: add one.{hint} To run a file, give "
+            "its path"
+        )
+    found = executables.find(workspace, target, rest[0])
+    options, arguments = names.parse(rest[1:])
+    return FoundProgram(target, rest[0], found, rest, arguments, options)
 
 
 def start_program(
     world: World,
-    workspace: Workspace,
-    target: str,
-    rest: Sequence[str],
+    found: FoundProgram,
     *,
     on_exit: Callable[[Program], object],
     name: str = "",
-) -> str:
+) -> None:
     """Start a Python file, or an executable of a package, as a program of a world.
 
     Args:
         world: World to join.
-        workspace: Workspace in which packages are searched.
-        target: Path of the file, or name of the package.
-        rest: Further words of the command line; for a package, the executable first.
+        found: The program.
         on_exit: Function called when a user's program has ended.
         name: Name of the program and its node, unless `--ros-args` names the node; when
             empty, the name of the file or the executable.
-
-    Returns:
-        Name of the program in log lines.
-
-    Raises:
-        UsageError: If there is no such executable, or its arguments are malformed.
-        InputError: If the file cannot be read or is not valid Python.
     """
-    package: str | None = None
-    if is_file(target):
-        path = file_of(workspace, target)
-        executable, called, words, argv = str(path), path.stem, rest, [target, *rest]
-    else:
-        _need_executable(workspace, target, rest)
-        package, executable, words, argv = target, rest[0], rest[1:], list(rest)
-        called = executable
-    options, arguments = names.parse(words)
-    options.name = options.name or name or None
-    label = world.free_name(name or called)
+    found.options.name = found.options.name or name or None
     executables.start(
         world,
-        workspace,
-        package,
-        executable,
-        label=label,
-        argv=argv,
-        arguments=arguments,
-        options=options,
+        found.executable,
+        label=world.free_name(name or found.name),
+        argv=found.argv,
+        arguments=found.arguments,
+        options=found.options,
         on_exit=on_exit,
     )
-    return label
 
 
-def tell_unfound(workspace: Workspace, file: Path | None) -> str:
+def tell_unfound(workspace: Workspace, file: Path) -> str:
     """Return a sentence with the first reason why ROS 2 would not find a node or launch file.
 
     Return "" if ROS 2 would find the file.
     """
-    for name, package in workspace.packages.items() if file is not None else ():
-        if file is not None and file.is_relative_to(package.path):
+    for name, package in workspace.packages.items():
+        if file.is_relative_to(package.path):
             faults = faults_about(package, file, workspace.packages)
             more = f" (and {len(faults) - 1} more)" if len(faults) > 1 else ""
             told = f"ROS 2 would not find it: {faults[0]}{more}" if faults else ""
             return f"{told}; 'tftool check --as-ros {name}' lists all" if told else ""
     return ""
-
-
-def executable_file(workspace: Workspace, target: str, rest: Sequence[str]) -> Path | None:
-    """Return the Python file of an executable in a user's package; None for all other targets.
-
-    Args:
-        workspace: Workspace in which packages are searched.
-        target: Path of a file, or name of a package.
-        rest: Further words of the command line; for a package, the executable first.
-    """
-    package = None if is_file(target) or not rest else workspace.packages.get(target)
-    if package is None:
-        return None
-    script = package.scripts.get(rest[0])
-    if script is None:
-        return package.script_file(rest[0])
-    return package.path.joinpath(*script.partition(":")[0].split(".")).with_suffix(".py")
 
 
 def driven_turtle(words: Sequence[str]) -> str:
@@ -201,8 +179,9 @@ def advice(world: World) -> Iterator[str]:
     """Yield hints about the transform lookups of the programs in a world."""
     for one in world.nodes:
         if isinstance(one, Program):
-            told = filter(None, (sum_up() for sum_up in one.advice))
-            yield from (f"'{one.label}': {text}" for text in told)
+            for sum_up in one.advice:
+                if text := sum_up():
+                    yield f"'{one.label}': {text}"
 
 
 async def until(world: World, over: asyncio.Event, limit: Duration | None) -> None:
@@ -223,12 +202,12 @@ async def until(world: World, over: asyncio.Event, limit: Duration | None) -> No
             one.cancel()
 
 
+@dataclass
 class Ending:
     """Callback for `on_exit`, which stores the ended program and sets the event `over`."""
 
-    def __init__(self) -> None:
-        self.program: Program | None = None
-        self.over: asyncio.Event = asyncio.Event()
+    program: Program | None = None
+    over: asyncio.Event = field(default_factory=asyncio.Event)
 
     def __call__(self, program: Program) -> None:
         """Store the program that has ended, and set the event `over`."""

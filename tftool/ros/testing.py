@@ -126,7 +126,7 @@ class RosRuntime:
             lambda: Program(
                 self.world,
                 f"{name}-{number}",
-                user_code.whole(body),
+                body,
                 argv=[str(what) if isinstance(what, str | Path) else name, *argv],
                 options=options,
                 on_exit=on_exit,

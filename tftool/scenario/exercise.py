@@ -115,7 +115,8 @@ class Exercise:
 
         def start(world: World) -> None:
             target, *rest = one.words
-            running.start_program(world, self.workspace, target, rest, on_exit=ended, name=one.node)
+            found = running.find_program(self.workspace, target, rest)
+            running.start_program(world, found, on_exit=ended, name=one.node)
 
         return start
 

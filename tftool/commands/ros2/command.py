@@ -94,7 +94,7 @@ def run(connection: Connection, options: Ros2Options) -> int:
     ending = running.Ending()
 
     async def work() -> None:
-        Program(world, world.free_name("ros2"), user_code.whole(body), argv=words, on_exit=ending)
+        Program(world, world.free_name("ros2"), body, argv=words, on_exit=ending)
         await running.until(world, ending.over, options.run_for)
 
     try:
@@ -133,7 +133,7 @@ def _run_launch_tests(connection: Connection, words: list[str]) -> int:
         ending = running.Ending()
 
         async def work() -> None:
-            body = user_code.whole(partial(run_tests, path, arguments))
+            body = partial(run_tests, path, arguments)
             # Tests read the name of ROS's command from sys.argv.
             argv = ["launch_test", *words]
             Program(world, world.free_name("launch_test"), body, argv=argv, on_exit=ending)

@@ -183,9 +183,9 @@ def run(connection: Connection, options: RunOptions) -> int:
     alone = simulator or (options.target in ROBOTS and options.place is None)
     with ros_free(force=options.force) as finder:
         packages.use(workspace)
-        running.check_program(workspace, options.target, words)
-        file = running.executable_file(workspace, options.target, words)
-        if unfound := running.tell_unfound(workspace, file):
+        found = running.find_program(workspace, options.target, words)
+        file = found.executable.file if found.package is not None else None
+        if file is not None and (unfound := running.tell_unfound(workspace, file)):
             notice(visible(unfound))
         session = _opened(connection, options.place, alone=alone, simulated=options.simulated)
         connection.tell_read_only()
@@ -203,7 +203,7 @@ def run(connection: Connection, options: RunOptions) -> int:
         async def work() -> None:
             if on_demand and options.target in running.TURTLE_PACKAGES:
                 turtles.host()
-            running.start_program(world, workspace, options.target, words, on_exit=ending)
+            running.start_program(world, found, on_exit=ending)
             await running.until(world, ending.over, options.run_for)
 
         session.run(work())

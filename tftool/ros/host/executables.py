@@ -301,18 +301,49 @@ def names(workspace: Workspace) -> dict[tuple[str, str], Path | None]:
     return found
 
 
-def check(workspace: Workspace, package: str, executable: str) -> None:
-    """Raise an error unless `start` can run an executable of a package.
+@dataclass(frozen=True, slots=True)
+class Found:
+    """Executable that `start` can start: a user's Python program, or one of tftool's nodes.
+
+    Attributes:
+        body: Function that runs the user's program; None for one of tftool's nodes.
+        file: The user's Python file; None for one of tftool's nodes.
+        ours: Default name of tftool's node, and the function that creates the node; None for a
+            user's program.
+    """
+
+    body: Callable[[], None] | None = None
+    file: Path | None = None
+    ours: tuple[str, Callable[[Asked], Node]] | None = None
+
+
+def find(workspace: Workspace, package: str | None, executable: str) -> Found:
+    """Find an executable, and compile it if it is a file.
+
+    Args:
+        workspace: Workspace of users' packages, searched first.
+        package: Name of the package; None for a file.
+        executable: Name of the program in the package, or path of the file.
 
     Raises:
         HasItsOwnCommand: If the program needs a terminal of its own.
         UsageError: If there is no such package or executable; the text has the nearest name.
+        InputError: If the file cannot be read or is not valid Python.
     """
+    # As in a sourced workspace, each package can import the others.
+    importing.look_behind(workspace.module_folders)
+    if package is None:
+        return Found(user_code.file_body(Path(executable)), Path(executable))
     found = workspace.packages.get(package)
-    if found is not None and (executable in found.scripts or found.script_file(executable)):
-        return
+    if found is not None and executable in found.scripts:
+        module, _, function = found.scripts[executable].partition(":")
+        file = found.path.joinpath(*module.split(".")).with_suffix(".py")
+        body = user_code.entry_point_body(module, function or "main", root=found.path)
+        return Found(body, file)
+    if found is not None and (script := found.script_file(executable)) is not None:
+        return Found(user_code.file_body(script), script)
     if (package, executable) in _OURS:
-        return
+        return Found(ours=_OURS[package, executable])
     elsewhere = _ELSEWHERE.get((package, executable))
     if elsewhere is not None:
         raise HasItsOwnCommand(
@@ -332,9 +363,7 @@ def check(workspace: Workspace, package: str, executable: str) -> None:
 
 def start(
     world: World,
-    workspace: Workspace,
-    package: str | None,
-    executable: str,
+    found: Found,
     *,
     label: str,
     argv: Sequence[str],
@@ -342,13 +371,11 @@ def start(
     options: RosOptions,
     on_exit: Callable[[Program], object] | None = None,
 ) -> Node:
-    """Start an executable in a world: a user's Python program, or one of tftool's built-in nodes.
+    """Start an executable in a world.
 
     Args:
         world: World to join.
-        workspace: Workspace of users' packages, searched first.
-        package: Name of the package; None for a file.
-        executable: Name of the program in the package, or path of the file.
+        found: The executable.
         label: Name of the program in log lines, such as "listener-4".
         argv: The program's whole `sys.argv`.
         arguments: The program's arguments, without the part after `--ros-args`.
@@ -356,34 +383,11 @@ def start(
         on_exit: Function called when a user's program has ended.
 
     Raises:
-        HasItsOwnCommand: If the program needs a terminal of its own.
-        UsageError: If there is no such package or executable; the text has the nearest name.
-        InputError: If the file cannot be read or is not valid Python.
+        UsageError: If one of tftool's nodes rejects its arguments or parameters.
     """
-    # As in a sourced workspace, each package can import the others.
-    importing.look_behind(workspace.module_folders)
-    if package is None:
-        return _program(world, label, user_code.file_body(Path(executable)), argv, options, on_exit)
-    check(workspace, package, executable)
-    found = workspace.packages.get(package)
-    if found is not None and executable in found.scripts:
-        module, _, function = found.scripts[executable].partition(":")
-        body = user_code.entry_point_body(module, function or "main", root=found.path)
-        return _program(world, label, body, argv, options, on_exit)
-    if found is not None and (file := found.script_file(executable)) is not None:
-        return _program(world, label, user_code.file_body(file), argv, options, on_exit)
-    return _start_ours(world, _OURS[package, executable], arguments, options)
-
-
-def _program(
-    world: World,
-    label: str,
-    body: Callable[[], None],
-    argv: Sequence[str],
-    options: RosOptions,
-    on_exit: Callable[[Program], object] | None,
-) -> Program:
-    return Program(world, label, user_code.whole(body), argv=argv, options=options, on_exit=on_exit)
+    if found.ours is not None:
+        return _start_ours(world, found.ours, arguments, options)
+    return Program(world, label, found.body, argv=argv, options=options, on_exit=on_exit)
 
 
 def _start_ours(

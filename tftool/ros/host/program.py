@@ -136,8 +136,8 @@ class Program(Node):
         if body is None:
             self.fiber = Fiber.adopt(name)
         else:
-            self.fiber = self.new_fiber(name, body, on_busy=self._say_busy)
-        self._own(self.fiber)
+            self.fiber = self.new_fiber(name, partial(self._run_code, body), on_busy=self._say_busy)
+        self.fiber.owner = self
         super().__init__(world, name)
 
     @property
@@ -208,7 +208,7 @@ class Program(Node):
 
     def start_fiber(self, fiber: Fiber) -> "asyncio.Task[None]":
         """Start a fiber as another thread of the program; call this in the event loop's thread."""
-        self._own(fiber)
+        fiber.owner = self
         task = asyncio.get_running_loop().create_task(fiber.drive(), name=fiber.name)
         self._others.add(task)
         task.add_done_callback(self._fiber_ended)
@@ -229,9 +229,6 @@ class Program(Node):
         if not task.cancelled() and (error := task.exception()) is not None:
             self.say("ERROR", self.name, str(error))
 
-    def _own(self, fiber: Fiber) -> None:
-        fiber.owner = self
-
     def _say_busy(self, place: CodeLine | None) -> None:
         where = str(place) if place is not None else "code that is not yours"
         wait = "simulated time waits for it" if self.strict else "its other callbacks wait for it"
@@ -250,6 +247,27 @@ class Program(Node):
         self.world.log.add(level, speaker, text, program=self.label)
 
     # The fibers' side.
+
+    def _run_code(self, body: Callable[[], object]) -> None:
+        """Call `body`, then warn about nodes that were never spun.
+
+        If the program was asked to end, also destroy the program's nodes.
+        """
+        try:
+            body()
+            waiting = [*self.unserved, *((node.name, node.unserved()) for node in self.nodes)]
+            for name, count in () if self.interrupted else waiting:
+                if count and not name.startswith("_"):
+                    told = "its callback" if count == 1 else f"none of its {count} callbacks"
+                    never = "never " if count == 1 else ""
+                    self.warn(
+                        f"node '{name}' has ended without being spun, so {told} was {never}called: "
+                        "call rclpy.spin(node)"
+                    )
+        finally:
+            for node in reversed(list(self.nodes)):
+                if self.interrupted:
+                    node.ros_node.destroy_node()
 
     def ask(self, request: Callable[[], Any]) -> Any:
         """Call `request` in the event loop's thread and return its result, as `Fiber.ask` does.

@@ -2,6 +2,7 @@
 
 import inspect
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from types import CodeType, ModuleType
 from typing import Any
@@ -23,23 +24,22 @@ def file_body(path: Path) -> Callable[[], None]:
     Raises:
         InputError: If the file cannot be read or is not valid Python; the text shows the line.
     """
-    code = compile_file(path)
+    return partial(_run_file, path, compile_file(path))
 
-    def body() -> None:
-        module = load_module(path, "__main__", code)
-        owner = program.current()
-        if owner.context is not None:
-            return
-        main = module.__dict__.get("main")
-        if not inspect.isfunction(main) or main.__module__ != "__main__" or _reads(code, "main"):
-            owner.warn(
-                f"'{path.name}' has ended without calling rclpy.init(), so it ran no node: call "
-                "rclpy.init() and spin a node"
-            )
-        else:
-            _end_with(main())
 
-    return body
+def _run_file(path: Path, code: CodeType) -> None:
+    module = load_module(path, "__main__", code)
+    owner = program.current()
+    if owner.context is not None:
+        return
+    main = module.__dict__.get("main")
+    if not inspect.isfunction(main) or main.__module__ != "__main__" or _reads(code, "main"):
+        owner.warn(
+            f"'{path.name}' has ended without calling rclpy.init(), so it ran no node: call "
+            "rclpy.init() and spin a node"
+        )
+    else:
+        _end_with(main())
 
 
 def load_module(path: Path, name: str = "", code: CodeType | None = None) -> ModuleType:
@@ -147,35 +147,3 @@ def _end_with(status: object) -> None:
     """Raise SystemExit with the value that a console script's function returned; ignore None."""
     if status is not None:
         raise SystemExit(status)
-
-
-def _warn_of_unserved(owner: program.Program) -> None:
-    """Log a warning for each node of a program that ended without spinning the node."""
-    waiting = [*owner.unserved, *((node.name, node.unserved()) for node in owner.nodes)]
-    for name, count in () if owner.interrupted else waiting:
-        if count and not name.startswith("_"):
-            told = (
-                "its callback was never called: call rclpy.spin(node)"
-                if count == 1
-                else f"none of its {count} callbacks was called: call rclpy.spin(node)"
-            )
-            owner.warn(f"node '{name}' has ended without being spun, so {told}")
-
-
-def whole(body: Callable[[], None]) -> Callable[[], None]:
-    """Return a function that calls `body`, then warns about nodes that were never spun.
-
-    If the program was asked to end, the function also destroys the program's nodes.
-    """
-
-    def run() -> None:
-        owner = program.current()
-        try:
-            body()
-            _warn_of_unserved(owner)
-        finally:
-            for node in reversed(list(owner.nodes)):
-                if owner.interrupted:
-                    node.ros_node.destroy_node()
-
-    return run

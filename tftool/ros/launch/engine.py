@@ -11,7 +11,7 @@ from typing import Any, ClassVar
 
 from tftool.base.errors import InputError, TftoolError, UsageError
 from tftool.base.stamps import seconds
-from tftool.ros.host import executables, importing, program, user_code
+from tftool.ros.host import executables, importing, program
 from tftool.ros.host.error_text import error_sentence
 from tftool.ros.host.program import Program, ProgramNode, exit_status
 from tftool.ros.host.workspace import Workspace
@@ -392,11 +392,10 @@ class Launch(Node):
 
         def start() -> None:
             try:
+                workspace = self.context.workspace
                 node = executables.start(
                     self.world,
-                    self.context.workspace,
-                    executable.package,
-                    executable.name,
+                    executables.find(workspace, executable.package, executable.name),
                     label=label,
                     argv=executable.argv or executable.launched_argv(),
                     arguments=executable.arguments,
@@ -480,7 +479,7 @@ class Launch(Node):
             started = Program(
                 self.world,
                 label,
-                user_code.whole(body),
+                body,
                 argv=argv,
                 on_exit=partial(self._program_ended, action, label),
             )
