@@ -224,7 +224,6 @@ class ActionServer(WorkQueue):
 
     def withdraw(self) -> None:
         """Close the server; reject goals that are not accepted yet."""
-        super().withdraw()
         for stop in self._stops:
             stop()
         for goal in self._goals:

@@ -18,7 +18,7 @@ from tftool.ros.rclpy.executors import (
 )
 from tftool.ros.rclpy.futures import Future
 from tftool.ros.rclpy.node import Node
-from tftool.ros.rclpy.node_parameters import unused_parameters
+from tftool.ros.rclpy.node_parameters import warn_of_unused
 from tftool.ros.rclpy.qos import QoSProfile
 from tftool.ros.rclpy.seat import seat_of
 from tftool.ros.rclpy.time import S_TO_NS, Duration, Time
@@ -134,12 +134,6 @@ def spin_until_future_complete(
     chosen = executor or node.executor or get_global_executor()
     with serving(chosen, node):
         chosen.spin_until_future_complete(future, timeout_sec)
-
-
-def warn_of_unused(node: Node) -> None:
-    """Log a warning for each parameter that was set at the node's start but never declared."""
-    for sentence in unused_parameters(node):
-        node.get_logger().warning(sentence, once=False)
 
 
 def wait_for_message(

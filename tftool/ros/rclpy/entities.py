@@ -174,7 +174,6 @@ class Requester(WorkQueue):
 
     def withdraw(self) -> None:
         """Close the entity and cancel all its requests."""
-        super().withdraw()
         if self._leave is not None:
             self._leave()
         for task in list(self._asking):
@@ -297,9 +296,7 @@ class Timer(NodeEntity):
         """Return whether the timer's next call is due."""
         return not self._canceled and self.due <= self.seat.world.clock.now()
 
-    def is_ready(self) -> bool:
-        """Return whether the timer's next call is due."""
-        return self.ready()
+    is_ready = ready
 
     def take(self) -> Work:
         """Schedule the timer's next call, and return a function that calls the callback now.
@@ -317,16 +314,13 @@ class Timer(NodeEntity):
             if self.due < now:
                 self.due += -(-(now - self.due) // self._period) * self._period
 
-        def work() -> Any:
-            if self.callback is None:
-                return None
-            if self._takes_info:
-                kind = self.clock.clock_type
-                info = TimerInfo(expected_call_time=due, actual_call_time=now, clock_type=kind)
-                return self.callback(info)
-            return self.callback()
-
-        return work
+        if self.callback is None:
+            return lambda: None
+        if not self._takes_info:
+            return self.callback
+        kind = self.clock.clock_type
+        info = TimerInfo(expected_call_time=due, actual_call_time=now, clock_type=kind)
+        return partial(self.callback, info)
 
     def cancel(self) -> None:
         """Stop calling the callback until `reset` is called."""
@@ -364,7 +358,6 @@ class RateTimer(Timer):
 
     def withdraw(self) -> None:
         """Close the timer, and call the function `on_end`."""
-        super().withdraw()
         self.on_end()
 
 

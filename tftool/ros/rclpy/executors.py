@@ -195,7 +195,7 @@ class Executor:
         if self._tasks:
             self._advance(*self._tasks.popleft())
             return True
-        found = self._program.ask(lambda: self._next(deadline, future))
+        found = self._program.ask(partial(self._next, deadline, future))
         self._raise_failure()
         if found is None:
             self._program.looked_in_vain()
@@ -308,35 +308,33 @@ class Executor:
         For each node, its timers come first.
         """
         for seat in list(self._seats):
-            yield from (one for one in seat.entities if isinstance(one, Timer))
-            yield from (one for one in seat.entities if not isinstance(one, Timer))
+            for is_timer in (True, False):
+                for entity in seat.entities:
+                    if isinstance(entity, Timer) is is_timer:
+                        yield entity
 
     def _is_ready(self, entity: NodeEntity) -> bool:
         # Most entities have no work, so this condition is tested first.
-        if not (entity.ready() and self._counts(entity)):
+        if not entity.ready() or not self._may_run(entity):
             return False
-        if isinstance(entity, Timer) and self._program.strict and not self._has_turn(entity.due):
-            return False
-        return self._may_run(entity)
-
-    def _counts(self, entity: NodeEntity) -> bool:
-        return self.spins_once or not entity.only_ends_spin_once
-
-    def _has_turn(self, due: Stamp) -> bool:
-        return due <= self._reached or due < self._program.clock.now()
+        if not (isinstance(entity, Timer) and self._program.strict):
+            return True
+        # At the instant when a timer is due, it waits for its turn among the world's nodes.
+        return entity.due <= self._reached or entity.due < self._program.clock.now()
 
     def _may_run(self, entity: NodeEntity) -> bool:
+        """Return whether this executor, and the callback group, permit an entity to run now."""
+        if entity.only_ends_spin_once and not self.spins_once:
+            return False
         group = entity.callback_group
         return group is None or entity.passes_busy_group or bool(group.can_execute(entity))
 
     def _due(self) -> Stamp | None:
+        """Return the time of the next timer that may run; None without such a timer."""
         moments = [
             entity.due
             for entity in self._entities()
-            if isinstance(entity, Timer)
-            and not entity.is_canceled()
-            and self._counts(entity)
-            and self._may_run(entity)
+            if isinstance(entity, Timer) and not entity.is_canceled() and self._may_run(entity)
         ]
         return min(moments, default=None)
 
@@ -395,7 +393,7 @@ class MultiThreadedExecutor(Executor):
             while not (future.done() or future.cancelled() or self._late(deadline)):
                 if not self._context.ok() or self._over:
                     return
-                self._program.ask(lambda: self._next(deadline, future, takes=False))
+                self._program.ask(partial(self._next, deadline, future, takes=False))
                 self._raise_failure()
         finally:
             self._let_go = None

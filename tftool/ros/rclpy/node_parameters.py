@@ -448,9 +448,10 @@ def _is_on_step(value: float, limits: Any) -> bool:
     return math.isclose(steps, round(steps), rel_tol=1e-9, abs_tol=1e-9)
 
 
-def unused_parameters(node: NodeParameters) -> list[str]:
-    """Return a warning for each parameter that was set at the node's start but never declared."""
-    return [undeclared(name, node._parameters) for name in node._unused_parameters]
+def warn_of_unused(node: Any) -> None:
+    """Log a warning for each parameter that was set at the node's start but never declared."""
+    for name in node._unused_parameters:
+        node.get_logger().warning(undeclared(name, node._parameters), once=False)
 
 
 def set_result(successful: bool, reason: str) -> Any:

@@ -244,6 +244,5 @@ class EndpointWatch(WorkQueue):
 
     def withdraw(self) -> None:
         """Stop reporting events of the publisher or subscription."""
-        super().withdraw()
         self._stop()
         self._deadline.stop()

@@ -65,11 +65,11 @@ class NodeSeat:
         program.nodes.append(self)
 
     def _join(self) -> ProgramNode:
-        name = names.join(self.namespace, self.name)
-        wanted, number = name, 1
-        while any(other.name == name for other in self.world.nodes if other is not self.program):
-            number += 1
-            name = f"{wanted}_{number}"
+        wanted = names.join(self.namespace, self.name)
+        if self.program.name == wanted:
+            # The executable and its node often have the same name, so the program gets another one.
+            self.program.name = f"{wanted} (program)"
+        name = self.world.free_name(wanted)
         # Hidden nodes are tools, of which several may run: two terminals with 'ros2 topic echo'.
         is_tool = self.name.startswith("_")
         if name != wanted and not is_tool:
@@ -81,9 +81,6 @@ class NodeSeat:
             )
         elif name in self.world.far_nodes and not is_tool:
             self.program.say("WARN", name, names.named_twice(name))
-        if self.program.name == name:
-            # The executable and its node often have the same name, so the program gets another one.
-            self.program.name = f"{name} (program)"
         return ProgramNode(self.program, name)
 
     def full(self, name: str, *, remap: bool = True, is_service: bool = False) -> str:

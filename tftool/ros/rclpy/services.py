@@ -158,7 +158,6 @@ class Service(ServiceEnd):
 
     def withdraw(self) -> None:
         """Stop the server; clients that wait for a response get an error."""
-        super().withdraw()
         self._stop()
         for answer in self._open:
             if not answer.done():

@@ -272,10 +272,6 @@ def _require_started(context: Any) -> None:
 class ROSClock(Clock):
     """Clock of ROS time, which every node has; a `TimeSource` can set the clock."""
 
-    def __new__(cls, *, clock_type: ClockType = ClockType.ROS_TIME) -> "ROSClock":
-        """Create a clock of ROS time."""
-        return object.__new__(cls)
-
     def __init__(self, *, clock_type: ClockType = ClockType.ROS_TIME) -> None:
         super().__init__(clock_type=ClockType.ROS_TIME)
         self._is_overridden: bool | None = None

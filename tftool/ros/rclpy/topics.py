@@ -90,7 +90,6 @@ class TopicEnd(NodeEntity):
 
     def withdraw(self) -> None:
         """Remove the publisher or subscription from the graph."""
-        super().withdraw()
         self._leave()
         if self.event_watch is not None:
             self.event_watch.withdraw()

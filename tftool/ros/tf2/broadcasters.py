@@ -3,6 +3,7 @@
 A listener inserts each transform into its buffer on arrival, even while its node does not spin.
 """
 
+import math
 from collections.abc import Callable, Iterable
 from functools import partial
 from typing import Any
@@ -184,7 +185,7 @@ class TransformBroadcaster:
             self._judge(sample)
             sent.append(sample)
         self._has_sent = True
-        self._member.program.ask(lambda: self._broadcast(sent))
+        self._member.program.ask(partial(self._broadcast, sent))
 
     def _broadcast(self, sent: list[TransformStamped]) -> None:
         seat = self._member
@@ -227,11 +228,11 @@ class TransformBroadcaster:
                 "write self.get_clock().now().to_msg()",
             )
         turn = sample.transform.rotation
-        square = sum(number * number for number in turn)
+        length = math.hypot(*turn)
         # The buffer refuses NaN with tf2's text, so no warning is needed here.
-        if square != square:
+        if math.isnan(length):
             return
-        if abs(square - 1.0) <= _TOLERANCE:
+        if abs(length * length - 1.0) <= _TOLERANCE:
             # If the rotation is computed from an angle, w is not exactly 0.
             if tuple(turn) == (1.0, 0.0, 0.0, 0.0):
                 self._report_once(
@@ -241,10 +242,10 @@ class TransformBroadcaster:
                     "write w = 1.0 if no rotation is meant; the order is x, y, z, w",
                 )
             return
-        if not square:
+        if not length:
             fault = "is all zeros, which every buffer rejects: write w = 1.0 for no rotation"
         else:
-            fault = f"has length {square**0.5:.4g}, not 1: ROS 2 refuses it, tftool scales it"
+            fault = f"has length {length:.4g}, not 1: ROS 2 refuses it, tftool scales it"
             if max(map(abs, turn)) > 1.5:
                 fault += "; x, y, z and w are no angles: use quaternion_from_euler for radians"
         self._report_once("rotation", sample.child_frame_id, f"the rotation of '{{}}' {fault}")
