@@ -157,8 +157,10 @@ class Fiber:
         self._clock = clock or SimpleNamespace(interrupted=False)
         # Two locks decide which side runs: `_go` wakes the thread, and `_rest` tells the loop that
         # the thread sleeps again.
-        self._go = _taken_lock()
-        self._rest = _taken_lock()
+        # One thread releases the lock and another acquires it, which is the fastest way to signal.
+        self._go, self._rest = threading.Lock(), threading.Lock()
+        self._go.acquire()
+        self._rest.acquire()
         self._request: Callable[[], Any] | None = None
         # One side writes these attributes while the other side sleeps, so they need no lock.
         self._broken_off = ""
@@ -310,16 +312,19 @@ class Fiber:
             go: Whether to wake the thread with `answer`; false at the first turn of an adopted
                 thread, which already runs.
         """
+        if not self._strict:
+            # Before the thread wakes up, because it reports its next request here.
+            loop = asyncio.get_running_loop()
+            arrived = loop.create_future()
+            self._arrived = (loop, arrived)
+        if go:
+            self._answer = answer
+            self._go.release()
         if self._strict:
-            self._hand_over(answer, go)
             self._wait_for_rest()
             return
-        loop = asyncio.get_running_loop()
-        arrived = loop.create_future()
-        self._arrived = (loop, arrived)
         # On the wall clock a busy thread delays nothing else, so it only causes a warning.
         alarm = loop.call_later(self._patience, self._say_busy)
-        self._hand_over(answer, go)
         try:
             await arrived
         except asyncio.CancelledError:
@@ -330,11 +335,6 @@ class Fiber:
         # The future has already reported that the thread sleeps; acquire the lock again for the
         # next turn.
         self._rest.acquire(blocking=False)
-
-    def _hand_over(self, answer: tuple[Any, BaseException | None], go: bool) -> None:
-        if go:
-            self._answer = answer
-            self._go.release()
 
     def _wait_for_rest(self) -> None:
         if self._thread is None:
@@ -434,13 +434,6 @@ class Fiber:
 def current() -> Fiber | None:
     """Return the fiber of the calling thread; None if the thread has no fiber."""
     return getattr(_local, "fiber", None)
-
-
-def _taken_lock() -> threading.Lock:
-    # One thread releases the lock and another acquires it, which is the fastest way to signal.
-    lock = threading.Lock()
-    lock.acquire()
-    return lock
 
 
 def finish(future: "asyncio.Future[None]", _: object = None) -> None:

@@ -375,7 +375,7 @@ def table() -> Mapping[str, Mapping[str, ImportedName]]:
     """
     found: dict[str, dict[str, ImportedName]] = {}
     for entry in re.split(r"\n(?! )", _TABLE.strip()):
-        modules, ours, names = (part.split() for part in entry.split(":"))
+        modules, ours, names = map(str.split, entry.split(":"))
         for theirs, name in product(modules, names):
             shown, real, tags = _ENTRY.fullmatch(name).groups()  # type: ignore[union-attr]
             made = ImportedName(ours[0], real or shown, tags.split(",") if tags else ())

@@ -54,9 +54,6 @@ _LOADING = threading.RLock()
 class _StandInModule(ModuleType):
     """Module with the name of a ROS 2 module, which loads each object from tftool at first use."""
 
-    def __init__(self, name: str) -> None:
-        super().__init__(name, f"{name}, as far as it runs without ROS.")
-
     def __dir__(self) -> list[str]:
         return sorted({*vars(self), *_entries(self.__name__), *self._modules()} - {"*"})
 
@@ -130,7 +127,7 @@ class _StandInLoader(Loader):
     """Import loader that creates modules with the names of ROS 2 modules."""
 
     def create_module(self, spec: importlib.machinery.ModuleSpec) -> ModuleType:
-        return _StandInModule(spec.name)
+        return _StandInModule(spec.name, f"{spec.name}, as far as it runs without ROS.")
 
     def exec_module(self, module: ModuleType) -> None:
         if (whole := _entries(module.__name__).get("*")) is not None:
@@ -192,18 +189,19 @@ class _Finder(MetaPathFinder):
         package, _, rest = fullname.partition(".")
         if not rest and (imported := self.on_import.pop(package, None)) is not None:
             imported()
-        if package in INTERFACES.packages():
-            if rest and _names_in(package, rest):
-                return _spec(fullname)
-            # The package's own module is the parent of its Python modules and its interfaces.
-            own = self._own(fullname, path, target) if package in WITH_MODULES else None
-            return own if own is not None or rest else _spec(fullname)
         known = import_table.table()
-        if fullname in known:
-            return _spec(fullname)
-        if package in known:
-            raise ModuleNotFoundError(missing_module(fullname), name=fullname)
-        return self._own(fullname, path, target)
+        if package in INTERFACES.packages():
+            if not (rest and _names_in(package, rest)):
+                # The package's own module is the parent of its Python modules and its interfaces.
+                own = self._own(fullname, path, target) if package in WITH_MODULES else None
+                if own is not None or rest:
+                    return own
+        elif fullname not in known:
+            if package in known:
+                raise ModuleNotFoundError(missing_module(fullname), name=fullname)
+            return self._own(fullname, path, target)
+        # Every module is a package, so that tftool reports a wrong name below a module itself.
+        return importlib.machinery.ModuleSpec(fullname, _StandInLoader(), is_package=True)
 
     def _own(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None
@@ -270,16 +268,8 @@ def _dotted_test(fullname: str, path: Sequence[str]) -> importlib.machinery.Modu
     return None
 
 
-def _spec(name: str) -> importlib.machinery.ModuleSpec:
-    # Every module is a package, so that tftool reports a wrong name below a module itself.
-    return importlib.machinery.ModuleSpec(name, _StandInLoader(), is_package=True)
-
-
 class _UserLoader(importlib.machinery.SourceFileLoader):
-    """Import loader for users' modules, which get replaced builtins.
-
-    With these builtins, `import time` imports tftool's version of `time`, for example.
-    """
+    """Import loader for users' modules, which get the builtins of `builtins_for_users`."""
 
     def exec_module(self, module: ModuleType) -> None:
         module.__dict__["__builtins__"] = builtins_for_users()
@@ -290,10 +280,7 @@ class _UserLoader(importlib.machinery.SourceFileLoader):
 
 
 class _TestedLoader(Loader):
-    """Import loader for tests, which wraps another loader and replaces the module's builtins.
-
-    With these builtins, `import time` imports tftool's version of `time`, for example.
-    """
+    """Import loader for tests: wraps another loader, and replaces the module's builtins."""
 
     def __init__(self, loader: Loader) -> None:
         self._loader = loader
@@ -358,7 +345,9 @@ _finder: _Finder | None = None
 
 @contextmanager
 def ros_free(*, force: bool = False) -> Iterator["_Finder"]:
-    """Make ROS 2's modules importable until the end of the `with` block.
+    """Make ROS 2's modules importable, and give every program its own `sys.argv`.
+
+    Both last until the end of the `with` block.
 
     Args:
         force: Whether to replace the modules of a sourced ROS 2.
@@ -372,8 +361,14 @@ def ros_free(*, force: bool = False) -> Iterator["_Finder"]:
             f"a real ROS 2 is sourced ({found}): run the file with ROS 2, or add --ros-free "
             "to run the file without ROS"
         )
-    with own_arguments(), environment(), ros_modules() as finder:
-        yield finder
+    argv = sys.argv
+    if not isinstance(argv, _Arguments):
+        sys.argv = _Arguments(argv)  # type: ignore[assignment]
+    try:
+        with environment(), ros_modules() as finder:
+            yield finder
+    finally:
+        sys.argv = argv
 
 
 @contextmanager
@@ -402,18 +397,6 @@ def environment() -> Iterator[None]:
 
 
 @contextmanager
-def own_arguments() -> Iterator[None]:
-    """Give every program its own `sys.argv` until the end of the `with` block."""
-    argv = sys.argv
-    if not isinstance(argv, _Arguments):
-        sys.argv = _Arguments(argv)  # type: ignore[assignment]
-    try:
-        yield
-    finally:
-        sys.argv = argv
-
-
-@contextmanager
 def ros_modules() -> Iterator["_Finder"]:
     """Make ROS 2's modules importable until the end of the `with` block; ignore a sourced ROS 2."""
     global _finder
@@ -421,9 +404,7 @@ def ros_modules() -> Iterator["_Finder"]:
         yield _finder
         return
     _finder = _Finder()
-    before = {name: module for name, module in list(sys.modules.items()) if _is_theirs(name)}
-    for name in before:
-        del sys.modules[name]
+    before = {name: sys.modules.pop(name) for name in list(sys.modules) if _is_theirs(name)}
     sys.meta_path.insert(0, _finder)
     loaded = set(sys.modules)
     try:
@@ -453,16 +434,18 @@ def _place(file: str | None, folders: Iterable[str] | None) -> Path:
 
 def _is_users(file: Path, roots: Iterable[Path]) -> bool:
     """Return whether a module's file is below one of `roots` and outside virtual environments."""
-    if file.is_relative_to(_OURS):
-        return False
-    below = (file.relative_to(root) for root in roots if file.is_relative_to(root))
-    return any("site-packages" not in path.parts for path in below)
+    for root in () if file.is_relative_to(_OURS) else roots:
+        if file.is_relative_to(root) and "site-packages" not in file.relative_to(root).parts:
+            return True
+    return False
 
 
 def look_in(root: Path) -> None:
     """Make `root` the first folder in which imports look for users' modules."""
-    if _finder is not None and _finder.roots[:1] != [root]:
-        _finder.roots = [root, *(one for one in _finder.roots if one != root)]
+    if _finder is not None:
+        if root in _finder.roots:
+            _finder.roots.remove(root)
+        _finder.roots.insert(0, root)
 
 
 def forget_in(folder: Path) -> None:

@@ -16,7 +16,7 @@ from typing import Any
 from tftool.base.errors import InputError
 from tftool.base.named_files import read_named_text
 
-MARKS = ("package.xml", "setup.py", "setup.cfg", "pyproject.toml")
+MARKS = frozenset(("package.xml", "setup.py", "setup.cfg", "pyproject.toml"))
 """Names of files that make a folder a package; one such file is enough."""
 
 

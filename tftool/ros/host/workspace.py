@@ -292,30 +292,17 @@ def _folders(root: Path, depth: int) -> Iterator[tuple[str, bool]]:
         root: Folder at which the search begins.
         depth: Number of levels below `root` to search.
     """
-    waiting = [(str(root), depth)]
-    while waiting:
-        folder, depth = waiting.pop()
-        try:
-            with os.scandir(folder) as found:
-                # Of two packages with one name the first is used; src contains the sources of built
-                # packages.
-                entries = sorted(found, key=lambda one: (one.name != "src", one.name), reverse=True)
-        except OSError:
-            entries = []
-        names = {one.name for one in entries}
-        yield folder, not names.isdisjoint(MARKS) and "COLCON_IGNORE" not in names
-        for one in entries if depth else ():
-            if one.name in _SKIPPED or one.name.startswith(".") or not _is_folder(one):
-                continue
-            # A symbolic link to a package is followed; folders below it are not searched.
-            waiting.append((one.path, 0 if one.is_symlink() else depth - 1))
-
-
-def _is_folder(entry: "os.DirEntry[str]") -> bool:
-    try:
-        return entry.is_dir()
-    except OSError:  # for example a link to itself
-        return False
+    top = str(root)
+    for folder, inner, files in os.walk(top, followlinks=True):
+        yield folder, not MARKS.isdisjoint(files) and "COLCON_IGNORE" not in {*inner, *files}
+        level = folder.count(os.sep) - top.count(os.sep)
+        # A symbolic link to a package is followed; folders below it are not searched.
+        if level == depth or (level and os.path.islink(folder)):
+            inner.clear()
+        inner[:] = [one for one in inner if one not in _SKIPPED and not one.startswith(".")]
+        # Of two packages with one name the first is used; src contains the sources of built
+        # packages.
+        inner.sort(key=lambda one: (one != "src", one))
 
 
 def _add_interfaces(package: Package) -> None:
