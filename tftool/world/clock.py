@@ -105,8 +105,9 @@ class Clock(ABC):
         try:
             while waiting and (self.interrupted or not timer.done()):
                 also = set() if timer.done() else {timer}
-                await asyncio.wait(waiting | also, return_when=asyncio.FIRST_COMPLETED)
-                waiting = {task for task in waiting if not task.done()}
+                first = asyncio.FIRST_COMPLETED
+                _, pending = await asyncio.wait(waiting | also, return_when=first)
+                waiting &= pending
         finally:
             timer.cancel()
         return waiting
@@ -550,7 +551,8 @@ def run(clock: Clock, main: Coroutine[Any, Any, T]) -> T:
         asyncio.set_event_loop(loop)
         task = loop.create_task(main)
         # After the task exists, so that a signal always finds something to cancel.
-        stopper = Stopper(loop, task, _real_seconds, clock.interrupt, clock.when_killed)
+        now = time.monotonic  # noqa: TID251
+        stopper = Stopper(loop, task, now, clock.interrupt, clock.when_killed)
         clock.stopper = stopper
         try:
             return _outcome(clock, loop, task)
@@ -561,10 +563,6 @@ def run(clock: Clock, main: Coroutine[Any, Any, T]) -> T:
     finally:
         asyncio.set_event_loop(None)
         loop.close()
-
-
-def _real_seconds() -> float:
-    return time.monotonic_ns() / NANOSECONDS
 
 
 def _outcome(clock: Clock, loop: asyncio.AbstractEventLoop, task: "asyncio.Task[T]") -> T:
@@ -651,7 +649,8 @@ class _VirtualSelector(selectors.DefaultSelector):
         """Return events of files and threads; if no task can run, advance time without waiting."""
         # A real poll is a system call, which is too slow for each of a million time jumps.
         self._calls += 1
-        if self._calls % self.POLL_EVERY == 0 or self.has_files():
+        # The loop always watches one file, its own wake-up pipe.
+        if self._calls % self.POLL_EVERY == 0 or len(self.get_map()) > 1:
             events = super().select(0)
             if events:
                 return events
@@ -672,7 +671,3 @@ class _VirtualSelector(selectors.DefaultSelector):
             )
         # A thread or a file may still wake the loop, so wait for that in real time.
         return super().select(None)
-
-    def has_files(self) -> bool:
-        """Return whether the loop watches files other than its own wake-up pipe."""
-        return len(self.get_map()) > 1

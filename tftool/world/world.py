@@ -130,6 +130,8 @@ class World:
         self.memory = MemoryBound(
             self.buffer, lambda text: self.log.warn("buffer", text), max_bytes or allowed()
         )
+        self._watchers: Listeners[()] = Listeners(self.report)
+        self._changed = self._watchers.call
         self.nodes: list[Resident] = []
         self._joined = 0
         self._topics: dict[str, Topic[Any]] = {}
@@ -144,7 +146,6 @@ class World:
         self.far_nodes: tuple[str, ...] = ()
         self.failure: NodeFailed | None = None
         self._supervisor: Supervisor | None = None
-        self._watchers: Listeners[()] = Listeners(self.report)
         self.endpoints = Endpoints(self._changed, self.log.warn)
         self.clients = Endpoints(self._changed, self.log.warn)
         self.tf: Topic[TransformMessage] = self._topic("tf", TransformMessage)
@@ -430,9 +431,6 @@ class World:
         calls. Exceptions of the callback are reported under the name `owner`.
         """
         return self._watchers.add(callback, owner)
-
-    def _changed(self) -> None:
-        self._watchers.call()
 
     # Transforms
 

@@ -2,7 +2,7 @@
 
 import asyncio
 from collections import Counter
-from collections.abc import Awaitable, Callable, Coroutine, Iterator
+from collections.abc import Callable, Coroutine, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -59,7 +59,7 @@ class Session:
     world: World
     is_hosted: bool
     name: str
-    live: Callable[[Stamp | None], Awaitable[None]]
+    live: Callable[[Stamp | None], Coroutine[Any, Any, None]]
     head_start: Duration = 0
     duration: Duration | None = None
     link: "Link | None" = None
@@ -98,12 +98,9 @@ class Session:
         """Await `work` while the world runs, inside a running event loop; see `run`."""
         stop_telling = self.world.log.listen(self.tell, "console")
         try:
-            return await beside(self._after_head_start(work), self._living(), on_interrupt)
+            return await beside(self._after_head_start(work), self.live(None), on_interrupt)
         finally:
             stop_telling()
-
-    async def _living(self) -> None:
-        await self.live(None)
 
     async def lasting(self, duration: Duration | None) -> None:
         """Wait for a duration in nanoseconds; wait for ever if `duration` is None."""
@@ -219,7 +216,7 @@ def shared(link: "Link | None", world: World, role: str = "host") -> Iterator[No
 
 def lived(
     world: World, link: "Link | None", role: str
-) -> Callable[[Stamp | None], Awaitable[None]]:
+) -> Callable[[Stamp | None], Coroutine[Any, Any, None]]:
     """Return a coroutine function that shares and runs a world until a time, or for ever."""
 
     async def alive(until: Stamp | None) -> None:
