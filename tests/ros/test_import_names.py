@@ -101,6 +101,27 @@ def test_a_packages_modules_are_there_after_no_more_than_importing_it(use):
     assert done.returncode == 0
 
 
+@pytest.mark.parametrize(
+    ("package", "kind"),
+    [
+        ("tf2_geometry_msgs", "geometry_msgs.msg.PointStamped"),
+        ("tf2_sensor_msgs", "sensor_msgs.msg.PointCloud2"),
+    ],
+)
+def test_an_import_alone_lets_buffers_transform_a_packages_messages(package, kind):
+    # In a new process, because the registration lasts as long as the process.
+    code = (
+        "from tftool.ros.host.importing import ros_free\n"
+        "with ros_free():\n"
+        f"    import {package}, {kind.rpartition('.')[0]}, tf2_ros\n"
+        f"    print(tf2_ros.TransformRegistration().get({kind}).__name__)\n"
+    )
+
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+
+    assert (done.stderr, done.stdout[:13]) == ("", "do_transform_")
+
+
 def test_our_own_modules_are_no_package_of_interfaces(ros_runtime):
     from tftool.messages.classes import INTERFACES
 

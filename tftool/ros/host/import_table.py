@@ -343,6 +343,9 @@ WHOLE_PACKAGES = (
 )  # fmt: skip
 """Packages whose submodules can be used after an import of the package alone."""
 
+REGISTERING = ("tf2_geometry_msgs", "tf2_sensor_msgs")
+"""Packages whose import alone makes buffers transform messages of further types."""
+
 
 def snake_case(name: str) -> str:
     """Convert a class's name to snake case: "ExecuteProcess" becomes "execute_process"."""

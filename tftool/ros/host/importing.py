@@ -130,9 +130,12 @@ class _StandInLoader(Loader):
         return _StandInModule(spec.name, f"{spec.name}, as far as it runs without ROS.")
 
     def exec_module(self, module: ModuleType) -> None:
-        if (whole := _entries(module.__name__).get("*")) is not None:
+        entries = _entries(module.__name__)
+        if (whole := entries.get("*")) is not None:
             ours = importlib.import_module(f".{whole.module}", "tftool.ros")
             vars(module).update(_defined(ours))
+        elif module.__name__ in import_table.REGISTERING:
+            load(next(iter(entries.values())))
 
 
 def load(imported: import_table.ImportedName) -> Any:
