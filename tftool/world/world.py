@@ -136,6 +136,7 @@ class World:
         self._joined = 0
         self._topics: dict[str, Topic[Any]] = {}
         self._services: NamedOffers[Handler] = NamedOffers("service", self._changed)
+        self._deferred: list[Callable[[], object]] = []
         self._actions: NamedOffers[Acceptor] = NamedOffers("action", self._changed)
         self._goal_watchers: dict[str, Listeners[GoalHandle]] = {}
         # Errors of the buffer that repeat, by the code at the beginning of the text.
@@ -316,17 +317,31 @@ class World:
         """
         return self._services.add(name, Offer(handler, kind, node, is_remote), shares=shares)
 
+    def serve_later(self, serve: Callable[[], object]) -> None:
+        """Call `serve`, which adds services, before any service is next looked up or called.
+
+        Every ROS 2 node has services for its parameters, but few programs use them.
+        """
+        self._deferred.append(serve)
+        self._changed()
+
+    @property
+    def _served(self) -> NamedOffers[Handler]:
+        while self._deferred:
+            self._deferred.pop(0)()
+        return self._services
+
     def has_service(self, name: str) -> bool:
         """Return whether any node serves a service."""
-        return self._services.get(name) is not None
+        return self._served.get(name) is not None
 
     def count_services(self, name: str) -> int:
         """Return the number of servers of a service; all servers in other processes count as 1."""
-        return self._services.count(name)
+        return self._served.count(name)
 
     def services(self) -> Mapping[str, Offer[Handler]]:
         """Return every service by name, read-only."""
-        return self._services.by_name
+        return self._served.by_name
 
     async def call(self, name: str, request: Any, *, patience: float | None = None) -> Any:
         """Call a service and wait for its response.
@@ -340,7 +355,7 @@ class World:
             TftoolError: If no node serves that name, or the request is of another type.
             LinkError: If another process does not respond in time.
         """
-        offer = self._services.get(name)
+        offer = self._served.get(name)
         if offer is None:
             raise TftoolError(f"no node serves '{name}'")
         kind = offer.kind

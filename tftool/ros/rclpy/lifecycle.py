@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable
 from enum import IntEnum
-from functools import wraps
+from functools import partial, wraps
 from typing import Any, NamedTuple, TypeVar
 
 from tftool.messages.classes import INTERFACES
@@ -353,7 +353,8 @@ def _serve(node: Any, callback_group: Any) -> None:
     def shown(transitions: Iterable[Transition]) -> list[Any]:
         return [_describe(described(), one) for one in transitions]
 
-    services = answered(
+    services = partial(
+        answered,
         "lifecycle_msgs",
         ("change_state", "success", change_state),
         ("get_state", "current_state", lambda _: state(machine.state.label)),

@@ -4,6 +4,7 @@ import copy
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager
+from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from tftool.messages.classes import Message
@@ -87,9 +88,9 @@ class Node(NodeGraph, NodeParameters):
             seat = self._tftool
             seat.rosout = seat.keep(RosoutPublisher, seat, self._logger.name, rosout_qos_profile)
         if start_parameter_services:
-            self._serve_own(services_of(self))
+            self._serve_own(partial(services_of, self))
         if enable_logger_service:
-            self._serve_own(logger_services())
+            self._serve_own(logger_services)
 
     if not TYPE_CHECKING:  # a type checker would accept every name
 
@@ -329,28 +330,28 @@ class Node(NodeGraph, NodeParameters):
 
     def _serve_own(
         self,
-        services: Iterable[tuple[str, Any, Callable[[Any, Any], Any]]],
+        services: Callable[[], Iterable[tuple[str, Any, Callable[[Any, Any], Any]]]],
         callback_group: CallbackGroup | None = None,
     ) -> None:
         """Create services that every ROS 2 node has, such as the services for its parameters.
 
-        If another node of the same name already offers a service, do not create this service.
+        They are created when a service of the world is first looked up. If another node of the same
+        name already offers a service, this service is not created.
 
         Args:
-            services: Tuples (name below the node's name, type, handler).
+            services: Function that returns tuples (name below the node's name, type, handler).
             callback_group: Callback group; None for the node's default group.
         """
-        seat, wanted = self._tftool, list(services)
+        seat = self._tftool
         group = callback_group or self._default_callback_group
 
         def offer() -> None:
-            for below, kind, answer in wanted:
+            for below, kind, answer in () if seat.is_destroyed else services():
                 full = seat.full(f"~/{below}", is_service=True)
                 if not seat.world.has_service(full):
                     seat.add(Service, seat, kind, f"~/{below}", full, answer, group)
 
-        # In one request, because another program's thread may run between two requests.
-        seat.program.ask(offer)
+        seat.program.ask(partial(seat.world.serve_later, offer))
 
     def __keep(self, make: Callable[..., E], *args: Any) -> E:
         return self._tftool.keep(make, self._tftool, *args)
@@ -383,6 +384,7 @@ class Node(NodeGraph, NodeParameters):
     @property
     def services(self) -> Iterator[Service]:
         """Services of the node."""
+        self._tftool.program.ask(self._tftool.world.services)  # which creates the node's own ones
         yield from self.__all(Service)
 
     @property

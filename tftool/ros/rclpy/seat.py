@@ -36,6 +36,7 @@ class NodeSeat:
         was_served: Whether the node was ever added to an executor.
         rosout: Publisher of the node's log messages; None if there is none.
         entities: The node's publishers, subscriptions, timers and the like, oldest first.
+        is_destroyed: Whether the node was destroyed.
         authority: Name of the node as the sender of transforms.
     """
 
@@ -59,7 +60,7 @@ class NodeSeat:
         self.was_served = False
         self.rosout: Any = None
         self.entities: list[Any] = []
-        self._destroyed = False
+        self.is_destroyed = False
         self._node: ProgramNode = program.ask(self._join)
         self.authority: str = self._node.name
         program.nodes.append(self)
@@ -117,7 +118,7 @@ class NodeSeat:
         Raises:
             InvalidHandle: If the node is destroyed.
         """
-        if self._destroyed:
+        if self.is_destroyed:
             raise InvalidHandle(
                 f"node '{self.name}' is destroyed, so nothing can be created on it: create it "
                 "before destroy_node()"
@@ -157,7 +158,7 @@ class NodeSeat:
 
     def leave(self) -> None:
         """Destroy the node with all its entities; call this in the program's thread."""
-        if not self._destroyed:
+        if not self.is_destroyed:
             self.program.unserved.append((self.name, self.unserved()))
             self.program.ask(self.withdraw)
             if self in self.program.nodes:
@@ -176,9 +177,9 @@ class NodeSeat:
 
     def withdraw(self) -> None:
         """Remove the node from the world; call this in the event loop's thread."""
-        if self._destroyed:
+        if self.is_destroyed:
             return
-        self._destroyed = True
+        self.is_destroyed = True
         for entity in self.entities:
             entity.withdraw()
         self.entities.clear()
