@@ -2,6 +2,7 @@
 
 import sys
 from collections.abc import Sequence
+from dataclasses import dataclass
 from enum import IntEnum
 from typing import TYPE_CHECKING, Any, List, Optional  # noqa: UP035
 
@@ -40,11 +41,11 @@ __all__ = [
 ]
 
 
+@dataclass(eq=False)
 class InitContextManager:
     """Context manager that `rclpy.init` returns; the end of the `with` block shuts rclpy down."""
 
-    def __init__(self, context: Context) -> None:
-        self.context = context
+    context: Context
 
     def __enter__(self) -> "InitContextManager":
         return self

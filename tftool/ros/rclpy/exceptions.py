@@ -1,6 +1,7 @@
 """Exceptions of rclpy."""
 
 from collections.abc import Iterable
+from typing import ClassVar
 
 from tftool.base.plain_text import did_you_mean
 
@@ -34,32 +35,35 @@ class NameValidationException(ValueError):
         super().__init__(f"Invalid {name_type}: {error_msg}:\n  '{name}'\n   {caret}")
 
 
-class InvalidNamespaceException(NameValidationException):
+class _NamedKind(NameValidationException):
+    kind: ClassVar[str]
+
+    def __init__(self, name: str, error_msg: str, invalid_index: int) -> None:
+        super().__init__(self.kind, name, error_msg, invalid_index)
+
+
+class InvalidNamespaceException(_NamedKind):
     """Error for an invalid namespace."""
 
-    def __init__(self, name: str, error_msg: str, invalid_index: int) -> None:
-        super().__init__("namespace", name, error_msg, invalid_index)
+    kind = "namespace"
 
 
-class InvalidNodeNameException(NameValidationException):
+class InvalidNodeNameException(_NamedKind):
     """Error for an invalid node name."""
 
-    def __init__(self, name: str, error_msg: str, invalid_index: int) -> None:
-        super().__init__("node name", name, error_msg, invalid_index)
+    kind = "node name"
 
 
-class InvalidTopicNameException(NameValidationException):
+class InvalidTopicNameException(_NamedKind):
     """Error for an invalid topic name."""
 
-    def __init__(self, name: str, error_msg: str, invalid_index: int) -> None:
-        super().__init__("topic name", name, error_msg, invalid_index)
+    kind = "topic name"
 
 
-class InvalidServiceNameException(NameValidationException):
+class InvalidServiceNameException(_NamedKind):
     """Error for an invalid service name."""
 
-    def __init__(self, name: str, error_msg: str, invalid_index: int) -> None:
-        super().__init__("service name", name, error_msg, invalid_index)
+    kind = "service name"
 
 
 class InvalidHandle(Exception):

@@ -1,7 +1,5 @@
 """Functions of rclpy that validate or expand names of topics, services, nodes and parameters."""
 
-from collections.abc import Callable
-
 from tftool.ros.host import names
 from tftool.ros.host.names import Fault
 from tftool.ros.rclpy.exceptions import (
@@ -10,7 +8,6 @@ from tftool.ros.rclpy.exceptions import (
     InvalidParameterException,
     InvalidServiceNameException,
     InvalidTopicNameException,
-    NameValidationException,
 )
 
 HIDDEN_TOPIC_PREFIX = "_"
@@ -27,7 +24,9 @@ def validate_node_name(node_name: str) -> bool:
     Raises:
         InvalidNodeNameException: If ROS 2 refuses the name.
     """
-    return _valid(node_name, names.node_name_fault(node_name), InvalidNodeNameException)
+    if (fault := names.node_name_fault(node_name)) is not None:
+        raise InvalidNodeNameException(node_name, *fault)
+    return True
 
 
 def validate_namespace(namespace: str) -> bool:
@@ -36,7 +35,9 @@ def validate_namespace(namespace: str) -> bool:
     Raises:
         InvalidNamespaceException: If ROS 2 refuses the namespace.
     """
-    return _valid(namespace, names.namespace_fault(namespace), InvalidNamespaceException)
+    if (fault := names.namespace_fault(namespace)) is not None:
+        raise InvalidNamespaceException(namespace, *fault)
+    return True
 
 
 def validate_topic_name(name: str, *, is_service: bool = False) -> bool:
@@ -48,8 +49,11 @@ def validate_topic_name(name: str, *, is_service: bool = False) -> bool:
         InvalidTopicNameException: If the name is not a valid topic name.
         InvalidServiceNameException: If the name cannot be the name of a service.
     """
-    kind = InvalidServiceNameException if is_service else InvalidTopicNameException
-    return _valid(name, names.topic_name_fault(name), kind)
+    if (fault := names.topic_name_fault(name)) is not None:
+        raise (InvalidServiceNameException if is_service else InvalidTopicNameException)(
+            name, *fault
+        )
+    return True
 
 
 def validate_full_topic_name(name: str, *, is_service: bool = False) -> bool:
@@ -59,9 +63,12 @@ def validate_full_topic_name(name: str, *, is_service: bool = False) -> bool:
         InvalidTopicNameException: If the name is not a valid topic name.
         InvalidServiceNameException: If the name cannot be the name of a service.
     """
-    kind = InvalidServiceNameException if is_service else InvalidTopicNameException
-    fault = names.namespace_fault(name)
-    return _valid(name, Fault("it must not end with '/'", 0) if name == "/" else fault, kind)
+    fault = names.namespace_fault(name) if name != "/" else Fault("it must not end with '/'", 0)
+    if fault is not None:
+        raise (InvalidServiceNameException if is_service else InvalidTopicNameException)(
+            name, *fault
+        )
+    return True
 
 
 def validate_parameter_name(name: str) -> bool:
@@ -85,11 +92,3 @@ def expand_topic_name(topic_name: str, node_name: str, node_namespace: str) -> s
     validate_node_name(node_name)
     validate_namespace(node_namespace)
     return "/" + names.expand(topic_name, node_name, node_namespace)
-
-
-def _valid(
-    name: str, fault: Fault | None, refusal: Callable[[str, str, int], NameValidationException]
-) -> bool:
-    if fault is not None:
-        raise refusal(name, fault.reason, fault.at)
-    return True
