@@ -93,8 +93,14 @@ class RcutilsLogger:
         if owner is None:
             return False
         frame = _caller_frame()
+        # The last instruction's index distinguishes two calls on one line.
+        place = (frame.f_code, frame.f_lasti) if frame is not None else None
         wait = 0 if throttle_duration_sec is None else seconds(throttle_duration_sec)
-        call = self._called(frame, int(severity), name or self.name, (once, skip_first, wait))
+        made_with = (int(severity), name or self.name, (once, skip_first, wait))
+        call = self._calls.setdefault(place, _Call(*made_with))
+        for what, before, now in zip(_UNCHANGED, call.made_with, made_with, strict=True):
+            if before != now:
+                raise ValueError(f"{what} cannot be changed between calls.")
         goes_by = throttle_time_source_type
         now = goes_by.now().nanoseconds if hasattr(goes_by, "now") else owner.clock.now()
         if not self.is_enabled_for(severity) or not call.passes(now):
@@ -117,22 +123,6 @@ class RcutilsLogger:
 
         owner.ask(say)
         return True
-
-    def _called(
-        self, frame: FrameType | None, severity: int, name: str, settings: tuple[bool, bool, int]
-    ) -> "_Call":
-        """Return the record of the user's line of code that logs; create it at the first call.
-
-        Raises:
-            ValueError: If severity, name or filters differ from the line's first call.
-        """
-        # The last instruction's index distinguishes two calls on one line.
-        place = (frame.f_code, frame.f_lasti) if frame is not None else None
-        call = self._calls.get(place)
-        if call is None:
-            call = self._calls[place] = _Call(severity, name, settings)
-        call.require(severity, name, settings)
-        return call
 
     def debug(self, message: object, **kwargs: Any) -> bool:
         """Log a message with severity DEBUG; return whether the message was logged."""
@@ -157,31 +147,17 @@ class RcutilsLogger:
         return self.log(message, LoggingSeverity.FATAL, **kwargs)
 
 
+_UNCHANGED = ("Logger severity", "Logger name", "Logging filter parameters")
+
+
 class _Call:
     """Record of one line of the user's code that logs: severity, logger, filters and counts."""
 
-    def __init__(self, severity: int, name: str, settings: tuple[bool, bool, Duration]) -> None:
-        self._severity = severity
-        self._name = name
-        self._settings = settings
-        once, skip_first, throttle = settings
+    def __init__(self, severity: int, name: str, filters: tuple[bool, bool, Duration]) -> None:
+        self.made_with = (severity, name, filters)
+        once, self._skip, self._throttle = filters
         self._left = 1 if once else None
-        self._skip = skip_first
-        self._throttle = throttle
         self._last: Stamp = 0
-
-    def require(self, severity: int, name: str, settings: tuple[bool, bool, Duration]) -> None:
-        """Check that severity, name and filters are the same as at the first call.
-
-        Raises:
-            ValueError: If the severity, the name or a filter has changed.
-        """
-        if severity != self._severity:
-            raise ValueError("Logger severity cannot be changed between calls.")
-        if name != self._name:
-            raise ValueError("Logger name cannot be changed between calls.")
-        if settings != self._settings:
-            raise ValueError("Logging filter parameters cannot be changed between calls.")
 
     def passes(self, now: Stamp) -> bool:
         """Return whether the filters permit a message at the time `now`; count the message."""

@@ -6,6 +6,7 @@ from typing import Any
 
 from tftool.messages.classes import INTERFACES
 from tftool.ros.host import names
+from tftool.ros.host.import_table import snake_case
 from tftool.ros.rclpy.futures import Future
 from tftool.ros.rclpy.node_parameters import PARAMETER_EVENTS
 from tftool.ros.rclpy.parameter import Parameter, parameter_dict_from_yaml_file
@@ -34,17 +35,17 @@ class AsyncParameterClient:
         self._clients = {
             kind: node.create_client(
                 INTERFACES.find("rcl_interfaces", "srv", kind),
-                f"{remote_node_name}/{name}",
+                f"{remote_node_name}/{snake_case(kind)}",
                 qos_profile=qos_profile,
                 callback_group=callback_group,
             )
-            for name, kind in (
-                ("get_parameters", "GetParameters"),
-                ("list_parameters", "ListParameters"),
-                ("set_parameters", "SetParameters"),
-                ("get_parameter_types", "GetParameterTypes"),
-                ("describe_parameters", "DescribeParameters"),
-                ("set_parameters_atomically", "SetParametersAtomically"),
+            for kind in (
+                "GetParameters",
+                "ListParameters",
+                "SetParameters",
+                "GetParameterTypes",
+                "DescribeParameters",
+                "SetParametersAtomically",
             )
         }
 
