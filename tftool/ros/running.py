@@ -214,21 +214,15 @@ class Ending:
         self.program = program
         self.over.set()
 
-    def judge(self) -> int:
-        """Return the exit status of the run; 0 if no program has ended.
 
-        Raises:
-            NodeFailed: If the program raised an exception.
-        """
-        return 0 if self.program is None else status_of(self.program)
-
-
-def status_of(program: Program) -> int:
-    """Return the exit status of a program that has ended.
+def status_of(program: Program | None) -> int:
+    """Return the exit status of a program that has ended; 0 for None.
 
     Raises:
         NodeFailed: If the program raised an exception.
     """
+    if program is None:
+        return 0
     # A program that tftool asked to end has succeeded.
     is_stuck = isinstance(program.failure, StuckError)
     if not program.status or (program.fiber.interrupted and not is_stuck):

@@ -102,7 +102,7 @@ def run(connection: Connection, options: Ros2Options) -> int:
     finally:
         lines.finish()
     try:
-        return ending.judge()
+        return running.status_of(ending.program)
     except NodeFailed as failed:
         # Not a failed program of the user, but a name that does not exist.
         if isinstance(failed.__cause__, UsageError):
@@ -140,4 +140,4 @@ def _run_launch_tests(connection: Connection, words: list[str]) -> int:
             await ending.over.wait()
 
         session.run(work())
-        return ending.judge()
+        return running.status_of(ending.program)

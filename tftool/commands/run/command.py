@@ -209,4 +209,4 @@ def run(connection: Connection, options: RunOptions) -> int:
         session.run(work())
         for sentence in running.advice(world) if options.simulated else ():
             notice(visible(sentence))
-        return ending.judge()
+        return running.status_of(ending.program)

@@ -23,7 +23,7 @@ from tftool.ros.rclpy.entities import (
 from tftool.ros.rclpy.exceptions import NotInitializedException
 from tftool.ros.rclpy.logging import LoggingSeverity, RcutilsLogger, logger_services
 from tftool.ros.rclpy.node_graph import NodeGraph
-from tftool.ros.rclpy.node_parameters import NodeParameters, services_of, teller
+from tftool.ros.rclpy.node_parameters import NodeParameters, services_of
 from tftool.ros.rclpy.qos import (
     QoSOverridingOptions,
     QoSProfile,
@@ -78,11 +78,11 @@ class Node(NodeGraph, NodeParameters):
             owner.log_levels[logger] = int(LoggingSeverity[level])
         self._tftool = NodeSeat(owner, name, place, options, self._context, self)
         self._start_parameters(
+            self._tftool,
             options.parameters_for(name, place),
             parameter_overrides or (),
             allow_undeclared_parameters,
             automatically_declare_parameters_from_overrides,
-            teller(self._tftool),
         )
         if enable_rosout and options.logs_to_rosout:
             seat = self._tftool

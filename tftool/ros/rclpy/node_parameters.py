@@ -33,13 +33,15 @@ class NodeParameters:
 
     def _start_parameters(
         self,
+        seat: NodeSeat,
         given: Mapping[str, Any],
         overrides: Iterable[Parameter],
         undeclared: bool,
         automatic: bool,
-        tell: Callable[..., None],
     ) -> None:
-        self._tell_of_parameters = tell
+        kind: Any = INTERFACES.message("rcl_interfaces/ParameterEvent")
+        topic, profile = PARAMETER_EVENTS, qos_profile_parameter_events
+        self.__events: Publisher = seat.keep(Publisher, seat, kind, topic, topic[1:], profile)
         self._parameters: dict[str, Parameter] = {}
         self._descriptors: dict[str, Any] = {}
         self._parameter_overrides: dict[str, Any] = {one.name: one.value for one in overrides}
@@ -56,6 +58,26 @@ class NodeParameters:
             for name, value in self._parameter_overrides.items():
                 if name not in self._parameters:
                     self.__declare_one(name, value, None, False)
+
+    def __tell(
+        self,
+        *,
+        new: Sequence[Parameter] = (),
+        changed: Sequence[Parameter] = (),
+        deleted: Sequence[Parameter] = (),
+    ) -> None:
+        """Publish a parameter event, unless nobody subscribes to these events."""
+        if self.__events.get_subscription_count():
+            seat = self.__events.seat
+            self.__events.publish(
+                self.__events.msg_type(
+                    stamp=values.time_message(seat.world.clock.now()),
+                    node=f"/{names.join(seat.namespace, seat.name)}",
+                    new_parameters=[one.to_parameter_msg() for one in new],
+                    changed_parameters=[one.to_parameter_msg() for one in changed],
+                    deleted_parameters=[one.to_parameter_msg() for one in deleted],
+                )
+            )
 
     # Declaring
 
@@ -148,7 +170,7 @@ class NodeParameters:
             del self._descriptors[name]
             raise InvalidParameterValueException(name, value, reason)
         self._parameters[name] = parameter
-        self._tell_of_parameters(new=[parameter])
+        self.__tell(new=[parameter])
         return parameter
 
     def undeclare_parameter(self, name: str) -> None:
@@ -156,7 +178,7 @@ class NodeParameters:
         self.__known(name)
         if self._descriptors[name].read_only:
             raise ParameterImmutableException(name)
-        self._tell_of_parameters(deleted=[self._parameters[name]])
+        self.__tell(deleted=[self._parameters[name]])
         del self._parameters[name], self._descriptors[name]
 
     # Reading
@@ -318,7 +340,7 @@ class NodeParameters:
                 )(name=one.name, type=int(one.type_), dynamic_typing=True)
         new = [one for one in new if one not in deleted]
         changed = [one for one in changes if one not in new and one not in deleted]
-        self._tell_of_parameters(new=new, changed=changed, deleted=deleted)
+        self.__tell(new=new, changed=changed, deleted=deleted)
         for after in self._post_set_parameters_callbacks:
             after(changes)
 
@@ -523,34 +545,6 @@ def _hint(wanted: Type, value: Any) -> str:
     if wanted is Type.STRING and isinstance(value, bool | int | float):
         return f": write '\"{value}\"' to pass a text"
     return ""
-
-
-def teller(seat: NodeSeat) -> Callable[..., None]:
-    """Create a node's publisher of parameter events; return a function that publishes an event."""
-    kind: Any = INTERFACES.message("rcl_interfaces/ParameterEvent")
-    publisher: Publisher = seat.keep(
-        Publisher, seat, kind, PARAMETER_EVENTS, PARAMETER_EVENTS[1:], qos_profile_parameter_events
-    )
-
-    def tell(
-        *,
-        new: Sequence[Parameter] = (),
-        changed: Sequence[Parameter] = (),
-        deleted: Sequence[Parameter] = (),
-    ) -> None:
-        # Most changes of parameters have no subscriber.
-        if not publisher.get_subscription_count():
-            return
-        event = kind(
-            stamp=values.time_message(seat.world.clock.now()),
-            node=f"/{names.join(seat.namespace, seat.name)}",
-            new_parameters=[one.to_parameter_msg() for one in new],
-            changed_parameters=[one.to_parameter_msg() for one in changed],
-            deleted_parameters=[one.to_parameter_msg() for one in deleted],
-        )
-        publisher.publish(event)
-
-    return tell
 
 
 def services_of(node: NodeParameters) -> Iterator[tuple[str, Any, Answer]]:
