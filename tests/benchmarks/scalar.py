@@ -173,7 +173,7 @@ def workloads() -> Iterator[Workload]:
                 yield questions("time travel, 5 links", world, 300, kind="full")
                 yield questions("whether it can, 5 links", world, 2, kind="can")
             if samples == 1000 and depth == 2:
-                yield questions("latest, 2 links", world, 0, (9.0, 0.7))
+                yield questions("latest, 2 links", world, 0, (9.0, 1.2))
                 yield questions("just now, 2 links", world, 2)
             if samples == 1000 and depth == 20:
                 yield questions("just now, 20 links", world, 2)
@@ -185,7 +185,7 @@ def workloads() -> Iterator[Workload]:
     world = tree(10_000, 4)
     yield questions("10,000 frames, any two of a tree", world, 1, again=True)
     yield questions("the same, each two for the first time", world, 1)
-    yield inserts("a sample set, in order", lambda random: list(range(MOST)), 1500, (5.0, 0.6))
+    yield inserts("a sample set, in order", lambda random: list(range(MOST)), 1500, (5.0, 1.2))
     yield inserts("a sample set, every second one late", _late, 1500)
     yield inserts("a sample set, in reverse order", lambda random: list(range(900, 0, -1)), 500)
 

@@ -5,7 +5,7 @@
 
    - A function either does exactly what its twin does, with the same operations in the same order
      (built with -ffp-contract=off), or changes nothing and lets the twin run. Unusual cases (a
-     refusal, a link that changes parents, a number that is no float, a full array) go to the twin.
+     refusal, a link that changes parents, a number that is no float) go to the twin.
    - Between calls it stores only which pairs of frames were looked up recently. Samples are in
      arrays that Python owns. They are read and written through the buffer protocol, and every
      index and length is checked against the buffer.
@@ -68,12 +68,15 @@ static const struct {
 
 /* Whether the object exists and is a tuple of that size. */
 INLINE int is_tuple(PyObject *object, Py_ssize_t size) {
-    return object != NULL && PyTuple_Check(object) && PyTuple_Size(object) == size;
+    return object != NULL && (PyTuple_CheckExact(object) || PyTuple_Check(object))
+        && PyTuple_Size(object) == size;
 }
 
-/* Read a tuple of that many floats. Returns whether it is one; never sets an error. */
-static int read_floats(PyObject *tuple, double *numbers, Py_ssize_t size) {
-    if (!is_tuple(tuple, size))
+/* Read a tuple of that many floats, mostly of the type `usual`. Returns whether it is one; never
+   sets an error. */
+static int read_floats(PyObject *tuple, PyTypeObject *usual, double *numbers, Py_ssize_t size) {
+    if (tuple == NULL || (Py_TYPE(tuple) != usual && !PyTuple_Check(tuple))
+        || PyTuple_Size(tuple) != size)
         return 0;
     for (Py_ssize_t i = 0; i < size; i++) {
         PyObject *number = PyTuple_GetItem(tuple, i);
@@ -118,7 +121,7 @@ static int read_records(const Link *link, int flags, Py_buffer *view) {
 static int read_link(const Link *link, Edge *edge, Py_buffer *view) {
     edge->records = NULL;
     if (link->records == NULL)
-        return read_floats(link->_newest, edge->fixed, 7);
+        return read_floats(link->_newest, &PyTuple_Type, edge->fixed, 7);
     if (!read_records(link, PyBUF_SIMPLE, view))
         return 0;
     edge->records = (const Record *)view->buf + link->start;
@@ -499,9 +502,10 @@ static int is_free(const Link *link) {
 #define SLACK 32
 #define SLACK_PART 8
 
-/* Insert a sample into a link that has memory for it: `History.insert` where no other sample has
-   its stamp, and all have the same origin. Returns whether it did; never sets an error. */
-static int put(Link *link, int64_t stamp, int64_t origin, double *pose) {
+/* Insert a sample: `History.insert` where no other sample has its stamp, and all have the same
+   origin. If `may_grow`, the link gets more memory where it needs some. Returns whether it did;
+   never sets an error. */
+static int put(Link *link, int64_t stamp, int64_t origin, double *pose, int may_grow) {
     Py_buffer view;
     const double square = square_of(pose + 3, 1);
     if (!(1.0 - ROUNDING < square && square < 1.0 + ROUNDING
@@ -517,6 +521,14 @@ static int put(Link *link, int64_t stamp, int64_t origin, double *pose) {
         || is_full != (link->start > SLACK + link->count / SLACK_PART)) {
         PyBuffer_Release(&view);
         return 0;
+    }
+    if (may_grow && !is_full && link->count == view.len / (Py_ssize_t)sizeof(Record)) {
+        /* Python reserves memory, and may change all that was read above: so read it again. */
+        PyBuffer_Release(&view);
+        PyObject *done = PyObject_CallMethod((PyObject *)link, "_have_room", NULL);
+        PyErr_Clear();
+        Py_XDECREF(done);
+        return done != NULL && put(link, stamp, origin, pose, 0);
     }
     Record *records = view.buf;
     const int64_t newest = link->newest_stamp;
@@ -582,10 +594,10 @@ static int insert(const Door *door, const Types *types, PyObject *sample, PyObje
         && read_stamp(PyTuple_GetItem(sender, 2), &origin)
         && Py_TYPE(transform) == types->tuples[TRANSFORM] && PyTuple_Size(transform) == 2
         && read_stamp(PyTuple_GetItem(sample, 0), &stamp)
-        && read_floats(PyTuple_GetItem(transform, 0), pose, 3)
-        && read_floats(PyTuple_GetItem(transform, 1), pose + 3, 4)
+        && read_floats(PyTuple_GetItem(transform, 0), types->tuples[VECTOR], pose, 3)
+        && read_floats(PyTuple_GetItem(transform, 1), types->tuples[QUATERNION], pose + 3, 4)
         && PyObject_TypeCheck(link = PyTuple_GetItem(sender, 3), types->fields)
-        && put((Link *)link, stamp, origin, pose);
+        && put((Link *)link, stamp, origin, pose, 1);
     Py_XDECREF(sender);
     return done;
 }

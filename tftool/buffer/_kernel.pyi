@@ -15,7 +15,7 @@ class Door:
     """
 
     def set_transform(self, transform: TransformStamped, authority: str = "") -> bool:
-        """Insert a sample of a known link that has room: `Buffer.set_transform`."""
+        """Insert a sample of a known link: `Buffer.set_transform`."""
 
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: int = 0
