@@ -545,7 +545,7 @@ class World:
         Raises:
             TftoolError: If the world has a node of that name.
         """
-        if any(other.name == node.name for other in self.nodes):
+        if self.free_name(node.name) != node.name:
             raise TftoolError(f"a node named '{node.name}' exists already: choose another name")
         node.rank = self._joined
         self._joined += 1

@@ -2,7 +2,7 @@
 
 import itertools
 import shlex
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 from typer.models import Context
@@ -41,46 +41,40 @@ KEYBOARD = ("turtlesim", "turtle_teleop_key")
 SIMULATED = "Simulated time cannot be shared in a session"
 
 
-def misplaced(words: Sequence[str], own: Collection[str]) -> list[str]:
-    """Return hints about words after FILE that look like options of `tftool run` or of ROS 2.
+def _check_words(connection: Connection, target: str, words: Sequence[str]) -> None:
+    """Print hints about words after FILE that look like options of `tftool run` or of ROS 2.
 
     Args:
+        connection: Connection of the command.
+        target: File or package on the command line.
         words: Words after FILE, which are passed to the node.
-        own: Names of the options of `tftool run`.
+
+    Raises:
+        UsageError: If --simulated or --for is after FILE, where tftool would ignore the option. If
+            the program's text contains the option, the option is meant for the program.
     """
-    told = []
-    before = ""
-    for word in _own_words(words):
-        option = word.partition("=")[0]
-        if option.startswith("--") and option in own:
-            told.append(
-                f"'{visible(option)}' after FILE is passed to the node: "
-                "write tftool's own options before FILE."
-            )
-        elif before in ("-p", "-r", "--param", "--remap") and ":=" in word:
-            told.append(
-                f"'{before} {visible(word)}' is passed to the node unchanged: "
-                "write ROS 2's arguments after --ros-args."
-            )
-        before = word
-    return told
-
-
-def _refuse_misplaced(target: str, words: Sequence[str]) -> None:
-    """Raise UsageError if --simulated or --for is after FILE, where tftool would ignore the option.
-
-    If the program's text contains the option, the option is meant for the program and is accepted.
-    """
-    file = Path(target)
-    given = [word for word in ("--simulated", "--for") if word in _own_words(words)]
-    if not given or not file.is_file():
-        return
-    text = file.read_text(encoding="utf-8", errors="replace")
-    if not any(f"{quote}{word}{quote}" in text for word in given for quote in "'\""):
+    own_words, file = _own_words(words), Path(target)
+    given = [word for word in ("--simulated", "--for") if word in own_words]
+    text = file.read_text(encoding="utf-8", errors="replace") if given and file.is_file() else None
+    if text is not None and not any(f"{q}{word}{q}" in text for word in given for q in "'\""):
         raise UsageError(
             f"put {' and '.join(given)} before FILE: words after FILE are passed to the program. "
             "To pass these words to the program, write 'tftool run FILE -- WORDS'."
         )
+    known = itertools.chain(*(option.opts for option in _context(connection).command.params))
+    options = {name for name in known if name.startswith("--")}
+    for before, word in itertools.pairwise(["", *own_words]):
+        option = word.partition("=")[0]
+        if option in options:
+            notice(
+                f"'{visible(option)}' after FILE is passed to the node: "
+                "write tftool's own options before FILE."
+            )
+        elif before in ("-p", "-r", "--param", "--remap") and ":=" in word:
+            notice(
+                f"'{before} {visible(word)}' is passed to the node unchanged: "
+                "write ROS 2's arguments after --ros-args."
+            )
 
 
 def _opened(connection: Connection, place: str | None, *, alone: bool, simulated: bool) -> Session:
@@ -163,15 +157,7 @@ def run(connection: Connection, options: RunOptions) -> int:
     if options.simulated:
         refuse_long_simulation(options.run_for)
     words = list(options.rest or [])
-    own = {
-        name
-        for option in _context(connection).command.params
-        for name in option.opts
-        if name[0] == "-"
-    }
-    _refuse_misplaced(options.target, words)
-    for word in misplaced(words, own):
-        notice(word)
+    _check_words(connection, options.target, words)
     workspace = workspace_here(options.target, verbose=options.verbose)
     is_of_nodes = options.place is not None or options.simulated or options.run_for is not None
     if not is_file(options.target) and options.target not in workspace.packages:
