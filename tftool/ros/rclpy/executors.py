@@ -55,6 +55,8 @@ class Executor:
         self._context = context or context_of(self._program)
         self._seats: list[NodeSeat] = []
         self._batch: deque[NodeEntity] = deque()
+        self._due: Stamp | None = None
+        """Time of the next timer that may run, when no entity was ready; None without a timer."""
         self._tasks: deque[tuple[Task, Any]] = deque()
         """Tasks to continue, each with the callback group that the task occupies, or None."""
         self._has_released = False
@@ -283,7 +285,7 @@ class Executor:
                     or (deadline is not None and deadline <= clock.now())
                 ):
                     return None
-                due = self._due() if takes else None
+                due = self._due if takes else None
                 if deadline is not None and (due is None or deadline < due):
                     due = deadline
                 await self._pause(waker, due)
@@ -291,9 +293,13 @@ class Executor:
                 self._wakers.remove(waker)
 
     def _take(self) -> tuple[NodeEntity, Work] | None:
+        """Return the next ready entity and its work; None if no entity is ready.
+
+        In the latter case, `_due` is the time of the next timer.
+        """
         for collected in (False, True):
             if collected:
-                self._batch = deque(filter(self._is_ready, self._entities()))
+                self._collect()
             while self._batch:
                 entity = self._batch.popleft()
                 if self._is_ready(entity):
@@ -302,16 +308,19 @@ class Executor:
                     return entity, entity.take()
         return None
 
-    def _entities(self) -> Iterator[NodeEntity]:
-        """Yield all entities of the executor's nodes in their order of execution.
-
-        For each node, its timers come first.
-        """
+    def _collect(self) -> None:
+        """Put the ready entities of all nodes into the batch; of each node, its timers first."""
+        self._due = None
         for seat in list(self._seats):
-            for is_timer in (True, False):
-                for entity in seat.entities:
-                    if isinstance(entity, Timer) is is_timer:
-                        yield entity
+            timers = [one for one in seat.entities if isinstance(one, Timer)]
+            for timer in timers:
+                if self._is_ready(timer):
+                    self._batch.append(timer)
+                elif not timer.is_canceled() and self._may_run(timer):
+                    self._due = timer.due if self._due is None else min(timer.due, self._due)
+            for entity in seat.entities:
+                if not isinstance(entity, Timer) and self._is_ready(entity):
+                    self._batch.append(entity)
 
     def _is_ready(self, entity: NodeEntity) -> bool:
         # Most entities have no work, so this condition is tested first.
@@ -328,15 +337,6 @@ class Executor:
             return False
         group = entity.callback_group
         return group is None or entity.passes_busy_group or bool(group.can_execute(entity))
-
-    def _due(self) -> Stamp | None:
-        """Return the time of the next timer that may run; None without such a timer."""
-        moments = [
-            entity.due
-            for entity in self._entities()
-            if isinstance(entity, Timer) and not entity.is_canceled() and self._may_run(entity)
-        ]
-        return min(moments, default=None)
 
     async def _pause(self, waker: "asyncio.Future[None]", due: Stamp | None) -> None:
         """Wait until the future `waker` is done, or until the time `due`; None for no limit."""
