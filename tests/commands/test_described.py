@@ -210,8 +210,8 @@ def test_info_of_a_text_file_and_of_a_scenario_by_its_name(tftool, tmp_path):
 
     assert unreadable.status == 3
     assert misused.status == 2
-    for result in (unreadable, misused):
-        assert "is a scenario, not a recording or robot description" in result.err
+    assert "neither a recording (MCAP, rosbag2, ROS 1 bag)" in unreadable.err
+    assert "is a scenario, not a recording or robot description" in misused.err
 
 
 @pytest.mark.parametrize("words", [["view", "-o", "page.html"], ["tree"], ["echo", "map", "base"]])

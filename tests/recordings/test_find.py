@@ -81,6 +81,21 @@ def test_a_file_is_what_its_suffix_says_where_its_content_says_nothing(tmp_path)
     assert find(str(robot)).kind is Kind.DESCRIPTION
 
 
+@pytest.mark.parametrize("name", ["README.md", "pyproject.toml", "passwd"])
+def test_a_text_without_keys_of_a_scenario_is_none(tmp_path, name):
+    (tmp_path / name).write_text("root: x\n[tool]\nmade = 1\n")
+
+    with pytest.raises(InputError, match="neither a recording"):
+        find(str(tmp_path / name))
+
+
+def test_a_python_file_that_starts_no_transforms_names_the_command_that_runs_it(tmp_path):
+    (tmp_path / "talker.py").write_text("import rclpy\n")
+
+    with pytest.raises(InputError, match=r"'tftool run .*talker\.py' runs a ROS node"):
+        find(str(tmp_path / "talker.py"))
+
+
 def test_nothing_is_refused(tmp_path):
     missing = str(tmp_path / "run.mcap")
 

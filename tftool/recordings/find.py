@@ -312,6 +312,7 @@ def _prefixed(word: str, path: Path) -> Found:
 
 
 _DESCRIBING = {".urdf", ".xacro"}
+_SCENARIO = re.compile(rb'^[{\s]*"?(about|duration|nodes|script|expect)"?\s*:', re.MULTILINE)
 _WRITTEN = {*_DESCRIBING, ".yaml", ".yml", ".xml", ".py"}
 """Suffixes of files that people write by hand, so that they are never recordings."""
 
@@ -375,7 +376,7 @@ def _kind_of_text(path: Path, head: bytes) -> Kind:
         root = re.search(rb"<([A-Za-z_][\w.:-]*)", start)
         return Kind.STATICS if root is not None and root[1] == b"launch" else Kind.DESCRIPTION
     is_launched = re.search(rb"^(launch\s*:|def generate_launch_description)", start, re.MULTILINE)
-    is_scenario = re.search(rb"^(nodes|about|expect)\s*:", start, re.MULTILINE)
+    is_scenario = _SCENARIO.search(start)
     is_script = b"static_transform_publisher" in start and not is_scenario
     if is_launched or is_script:
         return Kind.STATICS
@@ -387,6 +388,9 @@ def _kind_of_text(path: Path, head: bytes) -> Kind:
         raise InputError(
             f"'{path}' is text, but its suffix is that of a recording: rename or replace it."
         )
+    # The mistakes of a YAML file are listed when it is loaded as a scenario.
+    if not is_scenario and path.suffix not in (".yaml", ".yml"):
+        raise _nothing(path)
     return Kind.SCENARIO
 
 
@@ -410,6 +414,7 @@ def _nothing(path: Path) -> InputError:
     return InputError(
         f"'{path}' is neither a recording (MCAP, rosbag2, ROS 1 bag), nor a pose file, nor a robot "
         "description (URDF, xacro), nor a scenario (YAML)."
+        + (f" 'tftool run {path}' runs a ROS node." if path.suffix == ".py" else "")
     )
 
 
