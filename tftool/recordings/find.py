@@ -312,7 +312,7 @@ def _prefixed(word: str, path: Path) -> Found:
 
 
 _DESCRIBING = {".urdf", ".xacro"}
-_SCENARIO = re.compile(rb'^[{\s]*"?(about|duration|nodes|script|expect)"?\s*:', re.MULTILINE)
+_SCENARIO = re.compile(rb'^({\s*)?"?(about|duration|nodes|script|expect)"?\s*:', re.MULTILINE)
 _WRITTEN = {*_DESCRIBING, ".yaml", ".yml", ".xml", ".py"}
 """Suffixes of files that people write by hand, so that they are never recordings."""
 
