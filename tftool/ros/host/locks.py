@@ -6,7 +6,8 @@ thread waits for another.
 
 import asyncio
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any, TypeVar
 
 from tftool.base.stamps import Duration, seconds
@@ -31,18 +32,13 @@ class StateMonitor:
         self._mutex = threading.Lock()
         self._wakers: list[Callable[[], object]] = []
 
-    def change(self, update: Callable[[], T]) -> T:
-        """Change the state by calling `update`, then wake every waiting thread to check the state.
-
-        Returns:
-            The result of `update`; its exceptions pass through.
-        """
+    @contextmanager
+    def changing(self) -> Iterator[None]:
+        """Hold the mutex in the `with` block, which changes the state; then wake all waiters."""
         with self._mutex:
-            try:
-                return update()
-            finally:
-                for wake in self._wakers:
-                    wake()
+            yield
+            for wake in self._wakers:
+                wake()
 
     def wait(self, take: Callable[[], bool], timeout: float | None = None) -> bool:
         """Call `take` at once and after every change of the state, until `take` returns True.
@@ -84,7 +80,8 @@ class StateMonitor:
 
     def wake(self) -> None:
         """Wake every waiting thread to check the state again."""
-        self.change(lambda: None)
+        with self.changing():
+            pass
 
     async def _wait(self, owner: Any, take: Callable[[], bool], length: Duration | None) -> bool:
         loop = asyncio.get_running_loop()
@@ -166,13 +163,10 @@ class UserLock:
         Raises:
             RuntimeError: If the lock is not held.
         """
-
-        def free() -> None:
+        with self._state.changing():
             if not self._held:
                 raise RuntimeError("release unlocked lock")
             self._held = False
-
-        self._state.change(free)
 
     def locked(self) -> bool:
         """Return whether a thread holds the lock."""

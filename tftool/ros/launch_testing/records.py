@@ -36,7 +36,8 @@ class _Record:
 
     def append(self, event: RunningProcessEvent) -> None:
         """Append an event, and wake the tests that wait."""
-        self._state.change(lambda: self._events.append(event))
+        with self._state.changing():
+            self._events.append(event)
 
     def __iter__(self) -> Iterator[Any]:
         return iter(list(self._events))

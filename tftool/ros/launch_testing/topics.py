@@ -81,7 +81,8 @@ class WaitForTopics:
         return self._state.wait(lambda: all(self._messages.values()), self.timeout)
 
     def _take(self, kept: deque[Any], message: Any) -> None:
-        self._state.change(lambda: kept.append(message))
+        with self._state.changing():
+            kept.append(message)
 
     def shutdown(self) -> None:
         """Stop spinning the helper's node, and destroy the node."""

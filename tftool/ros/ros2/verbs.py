@@ -8,7 +8,7 @@ from typing import Any
 from tftool.base.errors import UsageError
 from tftool.ros.host import names, rosidl_runtime
 from tftool.ros.rclpy import core
-from tftool.ros.rclpy.action_client import ActionClient
+from tftool.ros.rclpy.action_client import ActionClient, GoalStatus
 from tftool.ros.rclpy.node import Node
 from tftool.ros.rclpy.node_graph import (
     get_action_client_names_and_types_by_node,
@@ -28,8 +28,6 @@ from tftool.ros.ros2.topic_verbs import (
     show_lines,
 )
 from tftool.world.node_parameters import value_of
-
-_STATUSES = {4: "SUCCEEDED", 5: "CANCELED", 6: "ABORTED"}
 
 UNKNOWN = 1
 """Exit status if the given node, topic or parameter does not exist."""
@@ -328,5 +326,6 @@ def _action_send_goal(node: Node, asked: argparse.Namespace, show: Print) -> int
     wrapped = _answer(node, handle.get_result_async())
     show("Result:")
     dump(wrapped.result)
-    show(f"Goal finished with status: {_STATUSES.get(wrapped.status, wrapped.status)}")
+    status = GoalStatus(wrapped.status).name.removeprefix("STATUS_")
+    show(f"Goal finished with status: {status}")
     return 0
