@@ -163,10 +163,10 @@ def test_wrong_arguments_are_refused_with_what_is_wanted(
 
 def test_where_packages_are_can_be_asked():
     from tests.ros.tutorial import TUTORIAL
-    from tftool.ros.host.workspace import Workspace
+    from tftool.ros.host.workspace import Workspace, use_workspace
     from tftool.ros.launch import packages
 
-    packages.use(Workspace(TUTORIAL))
+    use_workspace(Workspace(TUTORIAL))
 
     assert packages.get_package_share_directory("pkg_tf") == str(TUTORIAL)
     assert packages.get_package_prefix("pkg_tf") == str(TUTORIAL)

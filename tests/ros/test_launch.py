@@ -473,7 +473,7 @@ def test_the_tutorial_runs_live_too():
     import asyncio
 
     from tftool.messages.turtle_messages import Twist
-    from tftool.ros.launch import packages
+    from tftool.ros.host.workspace import use_workspace
     from tftool.ros.launch.engine import Launch
     from tftool.world.clock import WallClock, run
     from tftool.world.supervisor import live
@@ -492,7 +492,7 @@ def test_the_tutorial_runs_live_too():
 
     with ros_free():
         workspace = Workspace(TUTORIAL)
-        packages.use(workspace)
+        use_workspace(workspace)
         world = World(WallClock())
         Launch(world, TUTORIAL / "launch" / "turtle_following.launch.py", workspace=workspace)
         first = run(world.clock, until_driven(world))

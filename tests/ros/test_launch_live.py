@@ -5,8 +5,7 @@ import asyncio
 from tests.patience import PATIENCE
 from tests.ros.tutorial import Launched
 from tftool.ros.host.importing import ros_free
-from tftool.ros.host.workspace import Workspace
-from tftool.ros.launch import packages
+from tftool.ros.host.workspace import Workspace, use_workspace
 from tftool.ros.launch.engine import Launch
 from tftool.world.clock import WallClock, run
 from tftool.world.supervisor import live
@@ -18,7 +17,7 @@ def launch_live(file, start) -> Launched:
     done = Launched()
     with ros_free():
         workspace = Workspace(start)
-        packages.use(workspace)
+        use_workspace(workspace)
         world = World(WallClock())
         started = Launch(
             world, file, workspace=workspace, say=lambda *line: done.lines.append(line)

@@ -11,8 +11,7 @@ from tests.world.nodes.vectors import VECTORS, close, ids, rows
 from tftool.messages.classes import build
 from tftool.messages.turtle_messages import Kill, Spawn, TeleportAbsolute, Twist, twist
 from tftool.ros.host.importing import ros_free
-from tftool.ros.host.workspace import Workspace
-from tftool.ros.launch import packages
+from tftool.ros.host.workspace import Workspace, use_workspace
 from tftool.ros.launch.engine import Launch
 from tftool.world.nodes.turtle_drivers import DrawSquare
 from tftool.world.nodes.turtlesim import Turtlesim
@@ -63,7 +62,7 @@ def test_no_section_is_left_out_in_silence():
 @pytest.fixture(autouse=True)
 def without_ros():
     with ros_free():
-        packages.use(Workspace(TUTORIAL))
+        use_workspace(Workspace(TUTORIAL))
         yield
 
 

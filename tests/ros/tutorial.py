@@ -6,8 +6,7 @@ from pathlib import Path
 from tftool.base.stamps import seconds as stamp
 from tftool.ros.host import executables, names
 from tftool.ros.host.importing import ros_free
-from tftool.ros.host.workspace import Workspace
-from tftool.ros.launch import packages
+from tftool.ros.host.workspace import Workspace, use_workspace
 from tftool.ros.launch.engine import Launch
 from tftool.ros.running import until
 from tftool.world.clock import SimClock, run
@@ -44,7 +43,7 @@ def launch(file, *, seconds, arguments=None, start=TUTORIAL):
     done = Launched()
     with ros_free():
         workspace = Workspace(start)
-        packages.use(workspace)
+        use_workspace(workspace)
         clock = SimClock()
         world = World(clock)
         world.log.listen(done.records.append)

@@ -65,8 +65,7 @@ def _provide(root: Path) -> None:
     if not _imports:
         from tftool.ros.host import program
         from tftool.ros.host.importing import environment, ros_modules
-        from tftool.ros.host.workspace import Workspace
-        from tftool.ros.launch import packages
+        from tftool.ros.host.workspace import Workspace, use_workspace
 
         # These are for the import of tests and for their fixtures; each test enters them again.
         variables, imports = environment(), ros_modules()
@@ -76,7 +75,7 @@ def _provide(root: Path) -> None:
         _imports.extend((variables, imports))
         # Use the interfaces, share folders and modules of the workspace around the tests.
         workspace = Workspace(root)
-        packages.use(workspace)
+        use_workspace(workspace)
         _added.extend(workspace.module_folders())
         sys.path[:0] = _added
         program.let_outsiders_join(_program_of_fixture)

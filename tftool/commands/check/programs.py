@@ -14,8 +14,7 @@ from tftool.commands.shared.notices import FoldedLog, notice
 from tftool.ros.host.importing import ros_free
 from tftool.ros.host.installation import InstalledPart, installed_parts
 from tftool.ros.host.package_files import Package
-from tftool.ros.host.workspace import Workspace, missing_package
-from tftool.ros.launch import packages
+from tftool.ros.host.workspace import Workspace, missing_package, use_workspace
 from tftool.scenario.exercise import Entrant, Exercise
 from tftool.scenario.scenario import Scenario, Verdict
 
@@ -57,7 +56,7 @@ def judge_with(
             log.end()
 
     with ros_free(force=force):
-        packages.use(workspace)
+        use_workspace(workspace)
         exercise = Exercise(workspace, entrants, launch, tell=log.tell)
         yield judge
 

@@ -13,7 +13,7 @@ from tftool.commands.shared.options import refuse_long_simulation
 from tftool.commands.shared.programs import tell_log, workspace_here
 from tftool.ros import running
 from tftool.ros.host.importing import ros_free
-from tftool.ros.launch import packages
+from tftool.ros.host.workspace import use_workspace
 from tftool.ros.launch.arguments import arguments_of, find_launch_file, show_arguments
 from tftool.ros.launch.engine import Launch
 
@@ -26,7 +26,7 @@ def run(connection: Connection, options: LaunchOptions) -> ExitStatus:
         refuse_long_simulation(options.run_for)
     workspace = workspace_here(options.words[0], verbose=options.verbose)
     with ros_free(force=options.force):
-        packages.use(workspace)
+        use_workspace(workspace)
         path, rest = find_launch_file(workspace, options.words)
         if unfound := running.tell_unfound(workspace, path):
             notice(visible(unfound))

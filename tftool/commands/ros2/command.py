@@ -18,8 +18,7 @@ from tftool.ros import running
 from tftool.ros.host import user_code
 from tftool.ros.host.importing import ros_free
 from tftool.ros.host.program import Program
-from tftool.ros.host.workspace import Workspace
-from tftool.ros.launch import packages
+from tftool.ros.host.workspace import Workspace, use_workspace
 from tftool.ros.ros2 import ros2_program
 
 _ELSEWHERE = {
@@ -127,7 +126,7 @@ def _run_launch_tests(connection: Connection, words: list[str]) -> int:
     arguments_of(arguments)
     workspace = workspace_here(words[0], verbose=False)
     with ros_free():
-        packages.use(workspace)
+        use_workspace(workspace)
         session = open_empty_session(connection)
         world = session.world
         ending = running.Ending()

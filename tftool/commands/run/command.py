@@ -26,8 +26,7 @@ from tftool.commands.teleop.command import run as drive
 from tftool.ros import running
 from tftool.ros.host import executables
 from tftool.ros.host.importing import ros_free
-from tftool.ros.host.workspace import is_file
-from tftool.ros.launch import packages
+from tftool.ros.host.workspace import is_file, use_workspace
 from tftool.world.link.session_world import Session
 
 ROBOTS = ("robot_state_publisher", "joint_state_publisher")
@@ -168,7 +167,7 @@ def run(connection: Connection, options: RunOptions) -> int:
     simulator = (options.target, *words[:1]) == ("turtlesim", "turtlesim_node")
     alone = simulator or (options.target in ROBOTS and options.place is None)
     with ros_free(force=options.force) as finder:
-        packages.use(workspace)
+        use_workspace(workspace)
         found = running.find_program(workspace, options.target, words)
         file = found.executable.file if found.package is not None else None
         if file is not None and (unfound := running.tell_unfound(workspace, file)):

@@ -170,8 +170,8 @@ launch.events launch.events.matchers: launch.events: matches_action
 launch.events.process: launch.events: ProcessExited ProcessStarted ProcessIO ShutdownProcess
     SignalProcess RunningProcessEvent
 launch.frontend launch.frontend.parser: launch.frontend: Parser
-launch.frontend launch.frontend.expose: launch.exposing: expose_substitution
-launch.frontend.parse_substitution: launch.exposing: parse_substitution parse_if_substitutions
+launch.frontend launch.frontend.expose: launch.parsing: expose_substitution
+launch.frontend.parse_substitution: launch.parsing: parse_substitution parse_if_substitutions
 launch.launch_description_sources: launch.description: PythonLaunchDescriptionSource
     AnyLaunchDescriptionSource FrontendLaunchDescriptionSource
 launch.substitutions: launch.substitutions: TextSubstitution LaunchConfiguration<$var>

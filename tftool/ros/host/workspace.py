@@ -244,13 +244,13 @@ class Workspace:
 _current: list[Workspace] = []
 
 
-def use(searched: Workspace) -> None:
+def use_workspace(searched: Workspace) -> None:
     """Set the workspace that `current` returns."""
     _current[:] = [searched]
 
 
 def current() -> Workspace:
-    """Return the workspace set by `use`; by default the workspace around the current folder."""
+    """Return the workspace set by `use_workspace`; by default the one around the current folder."""
     if not _current:
         _current.append(Workspace(Path.cwd()))
     return _current[0]

@@ -3,9 +3,7 @@
 from pathlib import Path
 
 from tftool.base.errors import UsageError
-from tftool.ros.host.workspace import current, use
-
-__all__ = ["use"]
+from tftool.ros.host.workspace import current
 
 
 class PackageNotFoundError(KeyError):

@@ -1,9 +1,12 @@
-"""Parser of texts with substitutions, such as `$(var name)`, in XML and YAML launch files."""
+"""Parser of texts with substitutions, such as `$(var name)`, in XML and YAML launch files.
+
+Programs use it as launch.frontend, and register their own substitutions.
+"""
 
 import inspect
 from collections.abc import Callable, Iterable
 from functools import partial
-from typing import Any
+from typing import Any, TypeVar
 
 from tftool.base.errors import InputError
 from tftool.base.plain_text import near_names
@@ -11,6 +14,8 @@ from tftool.ros.host.import_table import tagged
 from tftool.ros.host.importing import load
 from tftool.ros.launch.elements import DEEPEST
 from tftool.ros.launch.substitutions import PythonExpression, TextSubstitution
+
+T = TypeVar("T")
 
 
 def parsed(text: Any, where: str) -> list[Any]:
@@ -149,3 +154,38 @@ def _spaced(words: Iterable[list[Any]]) -> list[Any]:
 
 EXPOSED: dict[str, Callable[..., Any]] = {"eval": _expression}
 """Functions that create substitutions, by tag: for `$(eval …)` and for users' own tags."""
+
+
+def parse_substitution(value: Any) -> list[Any]:
+    """Parse a text that may contain `$(…)` into a list of substitutions."""
+    return parsed(value, "a text") or [TextSubstitution(text="")]
+
+
+def parse_if_substitutions(value: Any) -> Any:
+    """Parse a text that contains `$(` into a list of substitutions; return other values unchanged.
+
+    In a list, each text is parsed separately.
+    """
+    if isinstance(value, list):
+        return [parse_if_substitutions(one) for one in value]
+    return parse_substitution(value) if isinstance(value, str) and "$(" in value else value
+
+
+def expose_substitution(name: str) -> Callable[[T], T]:
+    """Return a decorator that registers a class or function as the parser of `$(name …)`."""
+
+    def expose(exposed: T) -> T:
+        is_method = isinstance(exposed, type) and hasattr(exposed, "parse")
+        read: Any = exposed.parse if is_method else exposed  # type: ignore[attr-defined]
+        if isinstance(read, type) or not callable(read):
+            named = getattr(exposed, "__name__", repr(exposed))
+            raise RuntimeError(f"'{named}' is neither a function nor a class with a method parse")
+
+        def make(*words: Any) -> Any:
+            kind, settings = read(list(words))
+            return kind(**settings)
+
+        EXPOSED[name] = make
+        return exposed
+
+    return expose
