@@ -79,6 +79,7 @@ Errors:
 """
 
 import sys
+from importlib import import_module
 
 # Not imported from `typing`, because every command imports this module first, and should start
 # fast. Type checkers recognise the name.
@@ -243,8 +244,6 @@ _HOME_OF["open"] = "tftool.opener"
 
 
 def __getattr__(name: str) -> object:
-    from importlib import import_module
-
     if name not in _HOME_OF:
         raise AttributeError(f"module 'tftool' has no attribute '{name}'")
     home = import_module(_HOME_OF[name])

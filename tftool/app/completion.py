@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from tftool.app.index import COMMANDS
 from tftool.base.errors import InputError, TftoolError, UsageError
+from tftool.scenario import builtin
 
 if TYPE_CHECKING:
     from tftool.ros.host.workspace import Workspace
@@ -187,8 +188,6 @@ def _values(kind: Any, called: str, before: Sequence[str]) -> Iterator[Offer]:
     elif bare in FRAMES:
         yield from ((name, "") for name in _frames(before))
     elif bare in SOURCES:
-        from tftool.scenario import builtin
-
         yield from ((name, "scenario") for name in builtin.names())
     elif bare.partition(",")[0] in CHECK_IDS:
         from tftool.doctor.judge import CHECKS

@@ -4,6 +4,7 @@ Each command is a typer app, which is created when the command is called, so tha
 is imported.
 """
 
+import atexit
 import codecs
 import errno
 import gc
@@ -128,7 +129,6 @@ def _leave_on_signals() -> None:
     During the interpreter's shutdown, signals are ignored: Python has removed the handlers by then,
     and a second Ctrl-C would change the exit status.
     """
-    import atexit
     import signal
 
     def ignore() -> None:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from tftool.base.plain_text import distinct, shorten, visible
 from tftool.buffer.sample import Snapshot
 from tftool.drawing import pdf as pdf_writer
+from tftool.drawing import sheet_image
 from tftool.drawing import svg as svg_writer
 from tftool.drawing.drawn_forest import Forest, facts, grow, recorded_at
 from tftool.drawing.frame_tree import NO_MARKS, Marks
@@ -192,8 +193,6 @@ def png(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
     Raises:
         UsageError: If the extra `plot` is not installed.
     """
-    from tftool.drawing import sheet_image  # it needs the extra
-
     picture = lay_out(snapshot, stale=_stale(marks))
     note = _picture_note(picture.left_out)
     return Drawing(sheet_image.render(picture), picture.left_out, note)

@@ -15,6 +15,7 @@ from tftool.ros.host.installation import faults_about
 from tftool.ros.host.program import Program
 from tftool.ros.host.workspace import Workspace, file_of, is_file
 from tftool.world.clock import Phase
+from tftool.world.nodes.turtlesim import Turtlesim
 from tftool.world.world import World
 
 KEYBOARD_NODE = "teleop_turtle"
@@ -169,9 +170,6 @@ class TurtlesOnDemand:
             return
         self._is_asked = True
         if not self._world.has_service("spawn"):
-            # Programs without turtles do not load the simulator.
-            from tftool.world.nodes.turtlesim import Turtlesim
-
             Turtlesim(self._world)
 
 

@@ -15,6 +15,7 @@ from tftool.commands.shared.connection import Connection, open_from
 from tftool.commands.shared.notices import name_frames, notice, rivalries
 from tftool.commands.shared.options import refuse, within
 from tftool.commands.shared.pairs import IDENTITY, FramePair, refuse_file_as_frame
+from tftool.commands.shared.printer import write
 from tftool.drawing import echo_view as view
 from tftool.drawing.echo_view import in_words
 from tftool.frames.frames import Frames
@@ -36,8 +37,6 @@ class Printer:
         if self.for_programs:
             self._line(view.as_object(found, with_distance=self.with_distance))
         elif sys.stdout.isatty():
-            from tftool.commands.shared.printer import write
-
             write(
                 view.painted(found, precision=self.precision, with_distance=self.with_distance),
                 end="",

@@ -219,7 +219,6 @@ def _arrow() -> Any:
         UsageError: If the package is not installed.
     """
     try:
-        import pyarrow
         import pyarrow.parquet
     except ImportError:
         raise UsageError(

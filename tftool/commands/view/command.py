@@ -267,9 +267,6 @@ def run(connection: Connection, options: ViewOptions) -> ExitStatus:
         return _write(connection, options, options.output)
     if options.force:
         raise UsageError("--force is only allowed with -o FILE: add -o FILE.")
-    # Imported here, because a file needs no server, and websockets is slow to import.
-    from tftool.screens.browser.server import PageServer
-
     found = None if options.place is None else named(options.place)
     serve = partial(
         PageServer, port=options.port, rate=options.rate, tell=notice, secret=page_secret()

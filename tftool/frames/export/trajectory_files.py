@@ -344,8 +344,7 @@ def _write_parquet(
         UsageError: If the extra `parquet` is not installed.
     """
     try:
-        import pyarrow
-        from pyarrow import parquet
+        import pyarrow.parquet
     except ImportError as missing:
         raise UsageError("Parquet needs an extra: pip install 'tftool-tf2[parquet]'") from missing
     rows = [one.answered() for one in found]
@@ -374,7 +373,7 @@ def _write_parquet(
         }
     )
     with whole_file(path, force=force) as file:
-        parquet.write_table(table, file, compression="zstd")
+        pyarrow.parquet.write_table(table, file, compression="zstd")
     return [path]
 
 

@@ -4,6 +4,7 @@ import csv
 import json
 import math
 import re
+import zipfile
 from array import array
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Final
@@ -331,8 +332,6 @@ def read_npz(file: PoseFile) -> list[PoseLink]:
     Raises:
         InputError: If an array of `tftool export` is missing, or the shapes do not match.
     """
-    import zipfile
-
     try:
         with file.open() as opened:
             with zipfile.ZipFile(opened) as archive:
@@ -384,13 +383,12 @@ def read_parquet(file: PoseFile) -> list[PoseLink]:
         UsageError: If the extra `parquet` is not installed.
     """
     try:
-        import pyarrow
-        from pyarrow import parquet
+        import pyarrow.parquet
     except ImportError as missing:
         raise UsageError("Parquet needs an extra: pip install 'tftool-tf2[parquet]'") from missing
     try:
         with file.open() as opened:
-            head = parquet.ParquetFile(opened)
+            head = pyarrow.parquet.ParquetFile(opened)
             if head.metadata.num_rows > MOST_POSES:
                 raise InputError(f"'{file.path}' has more than {MOST_POSES:,} poses: split it.")
             wanted = [*TABLE_COLUMNS, "target", "source"]

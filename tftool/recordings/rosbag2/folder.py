@@ -28,6 +28,7 @@ from tftool.recordings.find import (
     kind_of_file,
     refusal,
 )
+from tftool.recordings.rosbag2.format import read_metadata
 
 _PARTS: Final = (*(Kind(one.words) for one in CONTAINERS if one.storage), Kind.ZSTD)
 _LARGEST_UNPACKED: Final = 1 << 34
@@ -124,8 +125,6 @@ def _listed(folder: Path, damage: list[str]) -> list[str]:
     if not path.exists():
         damage.append(f"There is no {METADATA}: the files are read without metadata.")
         return []
-    from tftool.recordings.rosbag2.format import read_metadata
-
     try:
         names = read_metadata(folder)["relative_file_paths"]
         return [Path(str(name)).name for name in names][:10_000]

@@ -4,6 +4,7 @@ Only `tftool run`, `tftool launch` and the pytest fixture install these hooks, n
 tftool`.
 """
 
+import dis
 import importlib
 import importlib.machinery
 import importlib.util
@@ -114,8 +115,6 @@ def _entries(module: str) -> Mapping[str, import_table.ImportedName]:
 
 
 def _is_import_from(frame: Any) -> bool:
-    import dis
-
     while frame is not None and frame.f_code.co_filename.startswith("<frozen importlib"):
         frame = frame.f_back
     code = frame.f_code.co_code

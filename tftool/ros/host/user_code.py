@@ -1,5 +1,6 @@
 """Loading of users' Python files, and functions that run these files as programs."""
 
+import dis
 import inspect
 from collections.abc import Callable
 from functools import partial
@@ -81,8 +82,6 @@ def _reads(code: CodeType, name: str) -> bool:
         code: Compiled code of the file.
         name: Name of the variable.
     """
-    import dis  # Needed only for programs without a node.
-
     return any(
         step.opname == "LOAD_NAME" and step.argval == name for step in dis.get_instructions(code)
     )

@@ -2,12 +2,14 @@
 
 import math
 import os
+import shlex
 import shutil
+import subprocess
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any, Final
 
-from tftool.base.errors import UsageError
+from tftool.base.errors import InputError, UsageError
 from tftool.base.named_files import read_named_text
 from tftool.base.plain_text import did_you_mean
 from tftool.ros.launch import commands, packages
@@ -384,7 +386,6 @@ def _expanded(words: list[str]) -> str:
     Raises:
         SubstitutionFailure: If the command line is not valid, or the file cannot be expanded.
     """
-    from tftool.base.errors import InputError, UsageError
     from tftool.robots.urdf import expand_xacro
 
     rest = [word for word in words[1:] if word != "--inorder"]
@@ -415,9 +416,6 @@ class Command(Substitution):
 
     def perform(self, context: LaunchContext) -> str:
         """Run the command, and return its standard output."""
-        import shlex
-        import subprocess
-
         words = shlex.split(perform(context, self.command))
         if words and words[0].rpartition("/")[2] == XACRO:
             return _expanded(words)

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from random import Random
 from typing import Any, ClassVar
 
 from tftool.base.errors import NodeArgumentsError, UsageError
@@ -254,9 +255,6 @@ class Noise(Node):
         Raises:
             UsageError: If a deviation is negative.
         """
-        # Imported here, because few scenarios have noise, but all import this module.
-        from random import Random
-
         super().__init__(world, name)
         if min(position, angle, drift, turn_drift) < 0:
             raise UsageError(

@@ -12,6 +12,7 @@ from tftool.messages.classes import Message
 from tftool.messages.codec import Codec, codec
 from tftool.messages.transforms import encode_transforms
 from tftool.recordings.channel import Channel
+from tftool.recordings.decompression import best_compression
 from tftool.recordings.message_conversion import TRANSFORMS, ros2_channel
 from tftool.world.clock import Clock, pace_of
 from tftool.world.endpoints import PUBLISHER
@@ -237,7 +238,6 @@ def recorded(world: World, path: Path, *, force: bool = False) -> "Iterator[Roll
         InputError: If the file cannot be written.
     """
     # Imported here, because writers import numpy, which a demo without recording avoids.
-    from tftool.recordings.decompression import best_compression
     from tftool.recordings.rolling_writer import RollingRecording
 
     rolling = RollingRecording(path, compression=best_compression(), force=force)

@@ -27,6 +27,11 @@ from typing import Any, Final
 
 from tftool.base.errors import LinkError, UsageError
 
+if sys.platform == "win32":
+    import msvcrt
+else:
+    import fcntl
+
 FOLDER_VARIABLE: Final = "TFTOOL_SESSION_DIR"
 """Environment variable with another folder; processes with the same folder find each other."""
 
@@ -384,12 +389,8 @@ def _sweep(*paths: Path) -> None:
 def _try_lock(file: Any) -> bool:
     try:
         if sys.platform == "win32":
-            import msvcrt
-
             msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
         else:
-            import fcntl
-
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError:
         return False

@@ -148,13 +148,11 @@ class Wire:
         if not quality.is_latched:
             publisher = self._session.declare_publisher(key, **options)
             return KeyPublisher(publisher, self._outbox, keeps=False)
-        import zenoh.ext as advanced
-
         kept = sys.maxsize if quality.keeps_all else max(1, quality.depth)
-        publisher = advanced.declare_advanced_publisher(
+        publisher = self._zenoh.ext.declare_advanced_publisher(
             self._session,
             key,
-            cache=advanced.CacheConfig(max_samples=kept),
+            cache=self._zenoh.ext.CacheConfig(max_samples=kept),
             publisher_detection=True,
             **options,
         )
@@ -179,14 +177,12 @@ class Wire:
         if not is_latched:
             subscriber = self._session.declare_subscriber(key, handler, allowed_origin=remote)
         else:
-            import zenoh.ext as advanced
-
-            subscriber = advanced.declare_advanced_subscriber(
+            subscriber = self._zenoh.ext.declare_advanced_subscriber(
                 self._session,
                 key,
                 handler,
                 allowed_origin=remote,
-                history=advanced.HistoryConfig(detect_late_publishers=True),
+                history=self._zenoh.ext.HistoryConfig(detect_late_publishers=True),
             )
         return _undeclare(subscriber)
 
@@ -344,7 +340,7 @@ def import_zenoh() -> Any:
         LinkError: If zenoh is missing.
     """
     try:
-        import zenoh
+        import zenoh.ext
     except ImportError as error:
         raise LinkError(
             "connections to other processes need the package 'eclipse-zenoh', which cannot be "
