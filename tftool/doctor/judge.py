@@ -11,7 +11,7 @@ import numpy as np
 
 from tftool.base.errors import UsageError
 from tftool.base.plain_text import near_names
-from tftool.base.stamps import CACHE_TIME, Duration
+from tftool.base.stamps import CACHE_TIME, Duration, Stamp
 from tftool.buffer.buffer import Buffer
 from tftool.doctor import clock_checks as clocks
 from tftool.doctor import coverage_checks as coverage
@@ -29,11 +29,12 @@ from tftool.doctor import shape_checks as shape
 from tftool.doctor import stamp_checks as stamps
 from tftool.doctor import value_checks as values
 from tftool.doctor.check import NEEDS, Check
-from tftool.doctor.evidence import Evidence, described_by, evidence_of
+from tftool.doctor.evidence import Evidence, described_by, evidence_of, evidence_of_log
 from tftool.doctor.findings import Area, Confidence, Finding, Fix, Hit, Severity, Skipped
 from tftool.doctor.model import Limits, Model, Settings
 from tftool.doctor.ros_words import in_words
 from tftool.doctor.wording import evidence_lines, filled, several
+from tftool.frames.transform_log import TransformLog
 
 if TYPE_CHECKING:
     from tftool.frames.frames import Frames
@@ -48,6 +49,9 @@ CHECKS: Mapping[str, Check] = {
     for check in room.check.checks
 }
 """All checks by id, in the order of the report: by area, then by definition."""
+
+AREAS = {area.value.replace(" ", "-"): area for area in Area}
+"""All areas of checks, by the word that selects their checks."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,6 +130,34 @@ def judge(
     return Diagnosis(_findings(hits, limits, model.words), tuple(skipped), ran, model)
 
 
+def faults_in_log(
+    log: TransformLog,
+    name: str,
+    span: tuple[Stamp, Stamp],
+    cache_time: Duration,
+    *,
+    limits: Mapping[str, Mapping[str, float]],
+    ignore: Sequence[str],
+) -> list[Finding]:
+    """Return the errors and warnings about a scenario's transforms, without consequences.
+
+    Args:
+        log: Transforms that were received.
+        name: Name of the scenario.
+        span: Begin and end of the time in which transforms were logged, nanoseconds.
+        cache_time: Cache time of the assumed listener, nanoseconds.
+        limits: Changed thresholds; see `Settings`.
+        ignore: Ids or areas of the checks to leave out.
+    """
+    settings = Settings(cache_time, limits=limits)
+    evidence = evidence_of_log(log, name, "scenario", *span)
+    return [
+        finding
+        for finding in judge(evidence, settings, ignore=ignore).findings
+        if finding.because_of is None and finding.severity is not Severity.NOTE
+    ]
+
+
 def _has(evidence: Evidence, need: str) -> bool:
     if need == "log times":
         return evidence.timed
@@ -152,16 +184,15 @@ def _named(words: Sequence[str]) -> list[str]:
     Raises:
         UsageError: If a word is neither an id nor an area.
     """
-    areas = {area.value.replace(" ", "-"): area for area in Area}
     found: list[str] = []
     for word in words:
         if word in CHECKS:
             found.append(word)
-        elif word.replace(" ", "-") in areas:
-            area = areas[word.replace(" ", "-")]
+        elif word.replace(" ", "-") in AREAS:
+            area = AREAS[word.replace(" ", "-")]
             found += [name for name, check in CHECKS.items() if check.area is area]
         else:
-            raise UsageError(unknown(word, [*CHECKS, *areas], "check or area"))
+            raise UsageError(unknown(word, [*CHECKS, *AREAS], "check or area"))
     return found
 
 

@@ -4,7 +4,7 @@ The doctor and numpy are imported only if an expectation needs the doctor.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING
@@ -35,12 +35,10 @@ class DoctorRules:
 
     def settings(self, given: "Settings") -> "Settings":
         """Return a command's settings (`given`), with these rules' thresholds as defaults."""
-        from tftool.doctor.model import Settings
-
         limits = {name: dict(of) for name, of in self.limits.items()}
         for name, of in given.limits.items():
             limits.setdefault(name, {}).update(of)
-        return Settings(given.cache_time, given.fixed_frame, given.tf_topics, limits)
+        return replace(given, limits=limits)
 
 
 NO_RULES = DoctorRules()
@@ -48,11 +46,10 @@ NO_RULES = DoctorRules()
 
 def check_or_area(node: Node, reading: Reading) -> str:
     """Read the id of one of the doctor's checks, or the name of an area (group of checks)."""
-    from tftool.doctor.findings import Area
-    from tftool.doctor.judge import CHECKS
+    from tftool.doctor.judge import AREAS, CHECKS
 
     word = reading.text(node, "a check").replace(" ", "-")
-    known = (*CHECKS, *(area.value.replace(" ", "-") for area in Area))
+    known = (*CHECKS, *AREAS)
     if word not in known:
         near = suggest(word, known) or "; 'tftool doctor --list' shows all"
         raise reading.refuse(node, f"there is no check or area {quoted(word)}{near}")

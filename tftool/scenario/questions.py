@@ -449,24 +449,19 @@ class Diagnosed(Subject):
 
     def answer(self, scene: ScenarioWorld) -> list[str]:
         """Return the findings as text, without findings of ignored checks."""
-        from tftool.doctor.evidence import evidence_of_log
-        from tftool.doctor.findings import Severity
-        from tftool.doctor.judge import judge
-        from tftool.doctor.model import Settings
+        from tftool.doctor.judge import faults_in_log
 
         if scene.hearing is None:
             return []
-        given = Settings(scene.world.buffer.cache_time)
-        diagnosis = judge(
-            evidence_of_log(scene.hearing, "scenario", "scenario", scene.start, scene.now),
-            scene.rules.settings(given),
+        faults = faults_in_log(
+            scene.hearing,
+            "scenario",
+            (scene.start, scene.now),
+            scene.world.buffer.cache_time,
+            limits=scene.rules.limits,
             ignore=(*scene.rules.ignore, *self.ignore),
         )
-        return [
-            f"{one.id}: {one.message}"
-            for one in diagnosis.findings
-            if one.because_of is None and one.severity is not Severity.NOTE
-        ]
+        return [f"{fault.id}: {fault.message}" for fault in faults]
 
     def __str__(self) -> str:
         without = f" without {', '.join(self.ignore)}" if self.ignore else ""

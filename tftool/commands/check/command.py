@@ -129,22 +129,23 @@ class _Heard:
     def findings(self) -> tuple[str, ...]:
         """Return a sentence for each error or warning of the doctor, with a suggested fix."""
         # Imported here: this takes as long as most scenarios take to play.
-        from tftool.doctor.evidence import evidence_of_log
-        from tftool.doctor.findings import Severity
-        from tftool.doctor.judge import judge
-        from tftool.doctor.model import Settings
+        from tftool.doctor.judge import faults_in_log
 
         if self._log is None or self._span is None:
             return ()
         begin, now = self._span
-        scenario = self._scenario
-        evidence = evidence_of_log(self._log, scenario.name, "scenario", begin, now())
-        settings = scenario.doctor.settings(Settings(scenario.cache_time))
-        found = judge(evidence, settings, ignore=scenario.doctor.ignore).findings
+        scenario, rules = self._scenario, self._scenario.doctor
+        faults = faults_in_log(
+            self._log,
+            scenario.name,
+            (begin, now()),
+            scenario.cache_time,
+            limits=rules.limits,
+            ignore=rules.ignore,
+        )
         return tuple(
-            f"{one.id}: {one.message}" + (f"; {one.fixes[0].text}" if one.fixes else "")
-            for one in found
-            if one.because_of is None and one.severity is not Severity.NOTE
+            f"{fault.id}: {fault.message}" + (f"; {fault.fixes[0].text}" if fault.fixes else "")
+            for fault in faults
         )
 
 
