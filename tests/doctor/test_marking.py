@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 from tftool.base.stamps import SIMULATED_BELOW, seconds
 from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import TransformStamped
-from tftool.doctor.frame_marks import marked, marks
+from tftool.doctor.frame_marks import marks
+from tftool.doctor.marked_frames import marked
 from tftool.geometry.rigid import Transform
 
 NAMES = st.sampled_from(["map", "odom", "base"])

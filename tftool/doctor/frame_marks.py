@@ -19,6 +19,8 @@ def marks(buffer: Buffer, snapshot: Snapshot) -> dict[str, tuple[str, ...]]:
     """
     if _is_calm(buffer, snapshot):
         return {}
+    from tftool.doctor.marked_frames import marked
+
     return marked(buffer)
 
 
@@ -35,38 +37,3 @@ def _is_calm(buffer: Buffer, snapshot: Snapshot) -> bool:
     late = max(newest) - min(newest) > STOPPED_AFTER * NANOSECONDS
     one_clock = (first < SIMULATED_BELOW) == (max(newest) < SIMULATED_BELOW)
     return one_clock and not late and all(len(buffer.parents(info.frame)) == 1 for info in moving)
-
-
-def marked(buffer: Buffer) -> dict[str, tuple[str, ...]]:
-    """Return the marks of a buffer that may contain faults; see `marks`.
-
-    A frame gets the mark `edge-stopped` if its newest sample is more than ten periods and more than
-    one second older than the newest of all samples on the same clock, except samples of localisers.
-    """
-    from tftool.doctor.clock_checks import clock_mixture
-    from tftool.doctor.evidence import evidence_of_buffer
-    from tftool.doctor.gap_checks import edge_stopped
-    from tftool.doctor.model import Model
-    from tftool.doctor.publisher_checks import two_parents
-
-    model = Model(evidence_of_buffer(buffer))
-    found: dict[str, list[str]] = {}
-    for check in (two_parents, clock_mixture):
-        for hit in check(model):
-            for _, child in hit.edges:
-                found.setdefault(child, []).append(check.id)
-    limits = edge_stopped.limits
-    newest: dict[bool, int] = {}
-    # Localisers stamp transforms in the future, so they must not make other links look old.
-    usual = [track for track in model.dynamic if not track.is_localisation]
-    for track in usual:
-        last = int(track.stamps.max())
-        newest[last < SIMULATED_BELOW] = max(newest.get(last < SIMULATED_BELOW, 0), last)
-    for track in model.parents.values():
-        if track.static or len(track.stamps) < 2:
-            continue
-        last = int(track.stamps.max())
-        least = max(limits["periods"] * track.period, limits["seconds"] * NANOSECONDS)
-        if newest.get(last < SIMULATED_BELOW, last) - last > least:
-            found.setdefault(track.child, []).append("edge-stopped")
-    return {child: tuple(dict.fromkeys(ids)) for child, ids in found.items()}
