@@ -130,7 +130,7 @@ class PageView:
             UsageError: If the file exists and `force` is not set.
             InputError: If the file cannot be written.
         """
-        from tftool.frames.export.trajectory_files import whole_file
+        from tftool.recordings.target import whole_file
 
         with whole_file(Path(path), force=force) as file:
             file.write(self.html.encode())
@@ -160,32 +160,9 @@ def view(
         InputError: If no part of the recording can be read.
         TypeError: If `shown` is not a source of frames.
     """
-    from tftool.base.errors import without_frames
-    from tftool.buffer.buffer import Buffer
-    from tftool.frames.frames import Frames
-    from tftool.recordings.recording import Recording
-    from tftool.robots.mesh_folders import MeshFolders
-    from tftool.screens.browser.protocol import reach
-    from tftool.screens.browser.robots import ShownRobot
-    from tftool.screens.browser.standalone import StandaloneData, standalone_page
-    from tftool.screens.still_frames import first_moment
+    from tftool.screens.browser.standalone import page_of
 
-    if isinstance(shown, Frames):
-        name, buffer, robot = shown.title, shown.buffer, robot or shown.robot
-        span: tuple[int, int] | None = None if shown.start is None else shown.span
-    elif isinstance(shown, Recording):
-        name, buffer, robot = f"recording '{shown.name}'", shown.buffer, robot or shown.robot
-        span = shown.span
-    elif isinstance(shown, Buffer):
-        name, buffer, span = "a buffer", shown, reach(shown.snapshot(0).frames)
-    else:
-        raise without_frames(shown)
-    begin, end = span or (1, 1)
-    begin = max(1, begin)
-    drawn = None if robot is None else ShownRobot(robot, MeshFolders(given=[*map(Path, meshes)]))
-    first = first_moment(buffer, begin, max(begin, end))
-    page = standalone_page(StandaloneData(name, buffer, begin, max(begin, end), first, drawn))
-    return PageView(page.content.decode(), height)
+    return PageView(page_of(shown, robot, meshes).content.decode(), height)
 
 
 def _table(title: str, heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:

@@ -8,10 +8,10 @@ import errno
 import os
 import shutil
 import tempfile
-from collections.abc import Sequence
-from contextlib import suppress
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
-from typing import Final
+from typing import BinaryIO, Final
 
 from tftool.base.errors import InputError, UsageError
 from tftool.recordings.containers import SUFFIXES
@@ -176,6 +176,52 @@ def commit_together(targets: Sequence[Target]) -> None:
         raise
     for old, _ in held:
         remove(old.parent)
+
+
+@contextmanager
+def whole_file(path: Path, *, force: bool = False) -> Iterator[BinaryIO]:
+    """Open a temporary file for writing, which is renamed to `path` at the end.
+
+    After an error, the temporary file is removed.
+
+    Raises:
+        UsageError: If the path exists and `force` is not given.
+        InputError: If the file cannot be written.
+    """
+    with Target(path, force=force) as target:
+        try:
+            with target.part.open("wb") as file:
+                yield file
+        except OSError as error:
+            raise failed(path, error) from error
+
+
+@contextmanager
+def whole_files(*paths: Path, force: bool = False) -> Iterator[list[BinaryIO]]:
+    """Open temporary files for writing, which are renamed to `paths` when all are complete.
+
+    Args:
+        paths: Final paths. The last path is that of the main file, which is renamed last.
+        force: Whether existing files may be replaced.
+
+    Raises:
+        UsageError: If a path exists and `force` is not given.
+        InputError: If a file cannot be written.
+    """
+    targets: list[Target] = []
+    try:
+        # Created one by one, so that all created before an error are discarded.
+        targets.extend(Target(path, force=force) for path in paths)
+        try:
+            with ExitStack() as stack:
+                yield [stack.enter_context(target.part.open("wb")) for target in targets]
+        except OSError as error:
+            raise failed(paths[-1], error) from error
+        commit_together(targets)
+    except BaseException:
+        for target in targets:
+            target.discard()
+        raise
 
 
 def remove(path: Path) -> None:

@@ -19,10 +19,9 @@ from tftool.drawing.calibration_view import clock_object
 from tftool.frames.calibration.body_motion import CalibrationRefused
 from tftool.frames.calibration.clock_offset import clock_offset
 from tftool.frames.differences import Allowance, Side, compare, side_of
-from tftool.frames.export.trajectory_files import whole_file
 from tftool.frames.pair_samples import only_chain, sample
 from tftool.frames.trajectory_errors import Pair, PieceLength, trajectory_errors
-from tftool.recordings.target import refuse_existing
+from tftool.recordings.target import refuse_existing, whole_file
 from tftool.world.link.session_world import NOTHING_RUNS
 
 SESSION = "session"

@@ -22,10 +22,9 @@ from tftool.commands.shared.printer import write_json
 from tftool.commands.shared.progress_bars import interruptible
 from tftool.drawing import figure
 from tftool.drawing import line_plot as view
-from tftool.frames.export.trajectory_files import whole_file
 from tftool.frames.pair_samples import Trajectory, sample
 from tftool.frames.pair_series import PlotCurve, chosen, panels, shades
-from tftool.recordings.target import refuse_existing
+from tftool.recordings.target import refuse_existing, whole_file
 
 
 def drawn(

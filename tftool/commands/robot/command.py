@@ -18,11 +18,11 @@ from tftool.drawing.solids import Solids, solids_of
 from tftool.drawing.space import SpaceFrame, SpacePicture
 from tftool.drawing.space_file import drawn_file
 from tftool.drawing.theme import DARK, LIGHT
-from tftool.frames.export.trajectory_files import whole_file
 from tftool.frames.frame_files import beyond_limits, load_described
 from tftool.geometry.rigid import Transform
 from tftool.opener import kind_in_words, named
 from tftool.recordings.find import Kind
+from tftool.recordings.target import whole_file
 from tftool.robots.mesh_folders import MeshFolders
 from tftool.robots.robot_model import Robot
 from tftool.screens.terminal.robot_app import RobotApp

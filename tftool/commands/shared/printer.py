@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tftool.base.named_files import reader_there
+from tftool.recordings.target import failed, refuse_stdout, whole_file
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -57,9 +58,6 @@ def write_file(path: Path, content: str | bytes) -> None:
         InputError: If the file cannot be written.
         UsageError: If the path is `-`.
     """
-    from tftool.frames.export.trajectory_files import whole_file
-    from tftool.recordings.target import failed, refuse_stdout
-
     refuse_stdout(path)
     data = content if isinstance(content, bytes) else content.encode()
     # A symbolic link stays; its target is replaced.

@@ -21,12 +21,11 @@ from tftool.commands.shared.notices import notice, tell_news
 from tftool.commands.shared.on_screen import at_rest, driver_of, simulator_of
 from tftool.commands.shared.progress_bars import Bar, interruptible
 from tftool.commands.view import ViewOptions
-from tftool.frames.export.trajectory_files import whole_file
 from tftool.frames.frame_files import beyond_limits, load_described
 from tftool.frames.frames import Frames
 from tftool.opener import named
 from tftool.recordings.find import Found, Kind
-from tftool.recordings.target import refuse_existing
+from tftool.recordings.target import refuse_existing, whole_file
 from tftool.robots.mesh_folders import MeshFolders
 from tftool.robots.robot_model import Robot
 from tftool.robots.urdf import parse_description

@@ -16,9 +16,10 @@ from tftool.buffer.buffer import Buffer
 from tftool.frames.export import frame_messages, static_files
 from tftool.frames.export.export_formats import DECIMALS, Format, Style, format_of
 from tftool.frames.export.static_files import LINK_WRITERS
-from tftool.frames.export.trajectory_files import TRAJECTORY_WRITERS, whole_file
+from tftool.frames.export.trajectory_files import TRAJECTORY_WRITERS
 from tftool.frames.pair_samples import Moments, Stamps, Trajectory, sample
 from tftool.recordings.contract import Progress
+from tftool.recordings.target import whole_file
 
 if TYPE_CHECKING:
     from tftool.frames.frames import Frames

@@ -7,7 +7,6 @@ appears under its final name only when it is complete.
 import csv
 import io
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from types import MappingProxyType
 from typing import BinaryIO, Final, TypeAlias
@@ -23,7 +22,7 @@ from tftool.frames.pair_samples import Trajectory
 from tftool.geometry import rigid_arrays as batch
 from tftool.recordings.containers import library_name
 from tftool.recordings.contract import Progress
-from tftool.recordings.target import Target, commit_together, failed
+from tftool.recordings.target import whole_file, whole_files
 
 Floats: TypeAlias = npt.NDArray[np.float64]
 Words: TypeAlias = npt.NDArray[np.uint32]
@@ -188,52 +187,6 @@ NPZ_VERSION: Final = 1
 """Value of `format_version` in npz files; raised when names or their order change."""
 
 _BYTES_PER_ROW: Final = 110
-
-
-@contextmanager
-def whole_file(path: Path, *, force: bool = False) -> Iterator[BinaryIO]:
-    """Open a temporary file for writing, which is renamed to `path` at the end.
-
-    After an error, the temporary file is removed.
-
-    Raises:
-        UsageError: If the path exists and `force` is not given.
-        InputError: If the file cannot be written.
-    """
-    with Target(path, force=force) as target:
-        try:
-            with target.part.open("wb") as file:
-                yield file
-        except OSError as error:
-            raise failed(path, error) from error
-
-
-@contextmanager
-def whole_files(*paths: Path, force: bool = False) -> Iterator[list[BinaryIO]]:
-    """Open temporary files for writing, which are renamed to `paths` when all are complete.
-
-    Args:
-        paths: Final paths. The last path is that of the main file, which is renamed last.
-        force: Whether existing files may be replaced.
-
-    Raises:
-        UsageError: If a path exists and `force` is not given.
-        InputError: If a file cannot be written.
-    """
-    targets: list[Target] = []
-    try:
-        # Created one by one, so that all created before an error are discarded.
-        targets.extend(Target(path, force=force) for path in paths)
-        try:
-            with ExitStack() as stack:
-                yield [stack.enter_context(target.part.open("wb")) for target in targets]
-        except OSError as error:
-            raise failed(paths[-1], error) from error
-        commit_together(targets)
-    except BaseException:
-        for target in targets:
-            target.discard()
-        raise
 
 
 TrajectoryWriter: TypeAlias = Callable[

@@ -12,20 +12,26 @@ import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from html import escape
+from pathlib import Path
 from typing import Any, Final
 from urllib.parse import quote, urljoin
 
 import numpy as np
 
+from tftool.base.errors import without_frames
 from tftool.base.stamps import Stamp
 from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import FrameInfo
-from tftool.robots.mesh_folders import MeshRefused
+from tftool.frames.frames import Frames
+from tftool.recordings.recording import Recording
+from tftool.robots.mesh_folders import MeshFolders, MeshRefused
+from tftool.robots.robot_model import Robot
 from tftool.screens.browser import assets, protocol
 from tftool.screens.browser.drawn_messages import DrawnTopic, pack_tracks
 from tftool.screens.browser.marks import marks_of
 from tftool.screens.browser.packing import METRES, QUATERNION, PackedBlock, Progress, TooLarge
 from tftool.screens.browser.robots import ShownRobot
+from tftool.screens.still_frames import first_moment
 
 MOST_BYTES: Final = 10_000_000
 """Bytes of a file beyond which numbers are rounded, to steps finer than any robot's sensors."""
@@ -95,6 +101,37 @@ def standalone_page(
         is_rounded = True
         packed = _packed(data, files, is_rounded=True, most=None, progress=progress)
     return StandalonePage(frame.around(packed), is_rounded)
+
+
+def page_of(
+    shown: Buffer | Frames | Recording, robot: Robot | None, meshes: Sequence[str | Path]
+) -> StandalonePage:
+    """Return the page of a buffer, a recording, or opened frames.
+
+    Args:
+        shown: Source of the frames.
+        robot: Robot to draw; None for the robot of the source.
+        meshes: Folders with the robot's meshes.
+
+    Raises:
+        InputError: If no part of the recording can be read.
+        TypeError: If `shown` is not a source of frames.
+    """
+    if isinstance(shown, Frames):
+        name, buffer, robot = shown.title, shown.buffer, robot or shown.robot
+        span: tuple[int, int] | None = None if shown.start is None else shown.span
+    elif isinstance(shown, Recording):
+        name, buffer, robot = f"recording '{shown.name}'", shown.buffer, robot or shown.robot
+        span = shown.span
+    elif isinstance(shown, Buffer):
+        name, buffer, span = "a buffer", shown, protocol.reach(shown.snapshot(0).frames)
+    else:
+        raise without_frames(shown)
+    begin, end = span or (1, 1)
+    begin = max(1, begin)
+    drawn = None if robot is None else ShownRobot(robot, MeshFolders(given=[*map(Path, meshes)]))
+    first = first_moment(buffer, begin, max(begin, end))
+    return standalone_page(StandaloneData(name, buffer, begin, max(begin, end), first, drawn))
 
 
 @dataclass(frozen=True, slots=True)
