@@ -1,11 +1,11 @@
 import json
-from functools import partial
+from functools import partialmethod
 
 import pytest
 
 from tftool.commands.shared import on_screen as onscreen
 from tftool.screens.terminal import turtle_app as terminal
-from tftool.screens.terminal import world_app as showing
+from tftool.screens.terminal.world_app import WorldApp
 
 BAD = """\
 about: Nothing holds.
@@ -21,7 +21,8 @@ expect:
 def on_terminal(monkeypatch):
     """Replace the terminal by one for which screens are drawn but not shown."""
     monkeypatch.setattr("tftool.commands.demo.command.screen_lacks", lambda: "")
-    monkeypatch.setattr(showing, "show", partial(showing.show, headless=True))
+    run = WorldApp.run_with_world
+    monkeypatch.setattr(WorldApp, "run_with_world", partialmethod(run, headless=True))
     apps = []
     started = terminal.TurtleApp.on_mount
 

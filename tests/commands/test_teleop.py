@@ -4,11 +4,12 @@ import pytest
 
 from tftool.base.errors import UsageError
 from tftool.base.stamps import seconds
-from tftool.commands.shared.on_screen import driver_of, run_app, scene_of
+from tftool.commands.shared.on_screen import driver_of, run_app
 from tftool.commands.teleop.command import press_there
 from tftool.messages.turtle_messages import Pose, Twist
-from tftool.screens.terminal import world_app as showing
+from tftool.screens.terminal.scene import scene_of
 from tftool.screens.terminal.screen_options import Setting
+from tftool.screens.terminal.world_app import WorldApp
 from tftool.world.clock import SimClock, run
 from tftool.world.nodes.turtle_drivers import BANNER
 from tftool.world.world import World
@@ -94,9 +95,9 @@ def pressing(monkeypatch):
             app.run_async = partial(app.run_async, auto_pilot=pilot)
             await shown(app, life, headless=True)
 
-        shown = showing.show
+        shown = WorldApp.run_with_world
         monkeypatch.setattr("tftool.commands.teleop.command.screen_lacks", lambda: "")
-        monkeypatch.setattr(showing, "show", see)
+        monkeypatch.setattr(WorldApp, "run_with_world", see)
         return apps
 
     return press
@@ -140,7 +141,7 @@ def test_once_a_missed_turtle_is_there_the_newest_line_says_so(monkeypatch):
             scene.look()
 
     told = []
-    monkeypatch.setattr(showing, "show", see)
+    monkeypatch.setattr(WorldApp, "run_with_world", see)
     run_app(scene, world.clock.sleep(0), driver_of(world, "turtle1"), Setting())
 
     assert told == ["there is no turtle 'turtle1' here; there are: none"]

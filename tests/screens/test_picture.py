@@ -17,7 +17,6 @@ from rich.text import Text
 
 from tests.screens.moving_picture import animated
 from tftool.base.stamps import NANOSECONDS, seconds
-from tftool.commands.shared.on_screen import simulator_of
 from tftool.drawing import theme
 from tftool.opener import scenario_named
 from tftool.scenario.play import build, left_to_a_person
@@ -27,6 +26,7 @@ from tftool.screens.terminal.turtle_app import TurtleApp
 from tftool.world.clock import Phase, SimClock, run
 from tftool.world.node import Node
 from tftool.world.nodes.turtle_drivers import IdleDrawing
+from tftool.world.nodes.turtlesim import simulator_of
 
 PICTURES = Path(__file__).parents[1] / "pictures"
 STILL, MOVING = PICTURES / "demo.svg", PICTURES / "demo-moving.svg"

@@ -5,14 +5,13 @@ import pytest
 from tftool.base.color import Color
 from tftool.base.stamps import seconds
 from tftool.buffer.sample import TransformStamped
-from tftool.commands.shared.on_screen import scene_of
 from tftool.drawing import theme
 from tftool.geometry.rigid import Transform, heading
 from tftool.messages.turtle_messages import Empty
 from tftool.robots.robot_model import Robot
 from tftool.robots.urdf import parse_description
 from tftool.screens.terminal import frames_picture as frames_seen
-from tftool.screens.terminal.scene import Scene
+from tftool.screens.terminal.scene import Scene, scene_of
 from tftool.screens.terminal.space_scene import space_picture
 from tftool.world.clock import SimClock, run
 from tftool.world.node import Node
@@ -229,10 +228,10 @@ def test_trees_that_nothing_joins_are_apart(frames):
 
 
 def test_two_trees_that_are_joined_are_one_picture_that_agrees_with_the_lookup():
-    from tftool.commands.shared.on_screen import simulator_of
     from tftool.opener import scenario_named
     from tftool.scenario.play import build, left_to_a_person
     from tftool.world.clock import SimClock
+    from tftool.world.nodes.turtlesim import simulator_of
 
     play = build(left_to_a_person(scenario_named("two_trees")), SimClock())
     scene = Scene(play.world, simulator_of(play.world))

@@ -9,7 +9,6 @@ from tftool.base.errors import NodeFailed, TftoolError
 from tftool.base.stamps import seconds
 from tftool.screens.terminal.scene import Scene
 from tftool.screens.terminal.turtle_app import TurtleApp
-from tftool.screens.terminal.world_app import show
 from tftool.world.clock import WallClock, run
 from tftool.world.node import Node
 from tftool.world.supervisor import live
@@ -52,7 +51,7 @@ def test_a_node_that_fails_ends_the_screen_and_is_named():
     app, world = live_app(Failing)
 
     with pytest.raises(NodeFailed, match="node 'painter' failed: ValueError: out of paint"):
-        run(world.clock, show(app, live(world), headless=True))
+        run(world.clock, app.run_with_world(live(world), headless=True))
 
     assert not app.is_running
 
@@ -62,7 +61,7 @@ def test_a_screen_that_fails_says_so_in_a_sentence(monkeypatch):
     monkeypatch.setattr(app.scene, "moment", lambda *_: 1 / 0)
 
     with pytest.raises(TftoolError, match="the screen failed: ZeroDivisionError: division by zero"):
-        run(world.clock, show(app, live(world), headless=True))
+        run(world.clock, app.run_with_world(live(world), headless=True))
 
 
 @pytest.mark.parametrize(("action", "interrupted"), [("leave", False), ("interrupt", True)])
@@ -78,7 +77,7 @@ def test_leaving_ends_the_world_too(action, interrupted):
             ended.append(True)
 
     async def main():
-        showing = asyncio.ensure_future(show(app, life(), headless=True))
+        showing = asyncio.ensure_future(app.run_with_world(life(), headless=True))
         while not begun:
             await world.clock.sleep(seconds(0.01))
         getattr(app, f"action_{action}")()
@@ -96,7 +95,10 @@ def test_leaving_ends_the_world_too(action, interrupted):
 def test_a_world_that_ends_ends_the_screen():
     app, world = live_app(Waiting)
 
-    run(world.clock, show(app, live(world, until=world.clock.now() + seconds(0.05)), headless=True))
+    run(
+        world.clock,
+        app.run_with_world(live(world, until=world.clock.now() + seconds(0.05)), headless=True),
+    )
 
     assert not app.is_running
 
@@ -105,7 +107,7 @@ def test_a_cancelled_screen_ends_both():
     app, world = live_app(Waiting)
 
     async def main():
-        showing = asyncio.ensure_future(show(app, live(world), headless=True))
+        showing = asyncio.ensure_future(app.run_with_world(live(world), headless=True))
         while not app.is_running:
             await world.clock.sleep(seconds(0.01))
         showing.cancel()

@@ -23,10 +23,8 @@ from tftool.commands.shared.on_screen import (
     at_rest,
     driver_of,
     run_app,
-    scene_of,
     screen_lacks,
     screen_setting,
-    simulator_of,
 )
 from tftool.commands.shared.options import refuse_long_simulation
 from tftool.commands.shared.printer import write, write_json
@@ -39,11 +37,12 @@ from tftool.scenario.play import Watch, build, left_to_a_person
 from tftool.scenario.scenario import Scenario
 from tftool.scenario.summary import as_json, play_through, written
 from tftool.screens.still_frames import first_look
-from tftool.screens.terminal.scene import Scene
+from tftool.screens.terminal.scene import Scene, scene_of
 from tftool.world.clock import Phase
 from tftool.world.link.session_world import shared
 from tftool.world.nodes.recorder import recorded
 from tftool.world.nodes.turtle_drivers import IdleDrawing
+from tftool.world.nodes.turtlesim import simulator_of
 from tftool.world.world import World
 
 

@@ -8,12 +8,12 @@ from tftool.commands.follow import FollowOptions
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import open_session
 from tftool.commands.shared.notices import notice, tell_record
-from tftool.commands.shared.on_screen import simulator_of
 from tftool.geometry.motion import Gains
 from tftool.world.link.session_world import Session
 from tftool.world.log import PROBLEMS, LogRecord
 from tftool.world.nodes.broadcasters import Broadcaster
 from tftool.world.nodes.follower import Follower
+from tftool.world.nodes.turtlesim import simulator_of
 
 NAME = "turtle_following"
 

@@ -222,10 +222,10 @@ async def watch_session(
 async def _shown(world: World, report: TrafficReport, life: Coroutine[Any, Any, None]) -> None:
     """Show the report on a full screen until q is pressed or the coroutine `life` ends."""
     from tftool.screens.terminal.traffic_app import TrafficWatch
-    from tftool.screens.terminal.world_app import show
 
     setting = screen_setting(report.options, "tftool monitor")
-    await show(TrafficWatch(world, report.traffic, report.chain, setting), life)
+    app = TrafficWatch(world, report.traffic, report.chain, setting)
+    await app.run_with_world(life)
 
 
 LEAST_AT_ONCE = 64

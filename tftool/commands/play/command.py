@@ -140,7 +140,6 @@ async def _on_screen(
 ) -> None:
     """Play on a full screen until q is pressed or the coroutine `life` ends."""
     from tftool.screens.terminal.player_app import PlayerScreen
-    from tftool.screens.terminal.world_app import show
 
     setting = screen_setting(options, f"tftool play {visible(Path(options.file).name)}")
     app = PlayerScreen(player, moments, *shown, setting)
@@ -150,7 +149,7 @@ async def _on_screen(
             app.tell(record.text)
 
     player.world.log.listen(tell, "screen")
-    await show(app, life)
+    await app.run_with_world(life)
 
 
 async def _end_after(world: World, pace: Clock, duration: Duration | None) -> None:

@@ -29,7 +29,6 @@ from tftool.screens.terminal.robot_app import RobotApp
 from tftool.screens.terminal.screen_options import Setting
 from tftool.screens.terminal.sliders import Sliders
 from tftool.screens.terminal.space_panel import frames_in_space
-from tftool.screens.terminal.world_app import show
 from tftool.world.clock import run as run_loop
 from tftool.world.link.session_world import Session
 from tftool.world.nodes.joints import (
@@ -99,7 +98,7 @@ def _show(
         solids=solids[0],
         missing=solids[1],
     )
-    run_loop(world.clock, show(app, session.along(session.lasting(run_for))))
+    run_loop(world.clock, app.run_with_world(session.along(session.lasting(run_for))))
 
 
 def _draw(

@@ -5,19 +5,16 @@ import sys
 from collections.abc import Callable, Coroutine
 from typing import TYPE_CHECKING, Any, Protocol
 
-from tftool.base.errors import InputError, UsageError
+from tftool.base.errors import UsageError
 from tftool.base.stamps import seconds
 from tftool.commands.shared.connection import Connection
 from tftool.frames.frames import Frames
 from tftool.screens.still_frames import StillFrames
 from tftool.world.clock import run
 from tftool.world.log import Log
-from tftool.world.nodes.remote_turtles import FarTurtles
 from tftool.world.nodes.turtle_drivers import Teleop
-from tftool.world.nodes.turtlesim import Turtlesim
 
 if TYPE_CHECKING:
-    from tftool.drawing.solids import Solids
     from tftool.screens.terminal.scene import Scene
     from tftool.screens.terminal.screen_options import Setting
     from tftool.world.nodes.turtle_drivers import IdleDrawing
@@ -66,11 +63,6 @@ def at_rest(connection: Connection, frames: Frames) -> StillFrames:
     return StillFrames(clock, frames.buffer, Log(clock.now))
 
 
-def simulator_of(world: "World") -> "Turtlesim | None":
-    """Return the turtle simulator among a world's nodes; None if no node is a simulator."""
-    return next((node for node in world.nodes if isinstance(node, Turtlesim)), None)
-
-
 def driver_of(world: "World", turtle: str) -> "Teleop":
     """Return the node that converts keys to motions of a turtle; create the node if it is missing.
 
@@ -83,54 +75,6 @@ def driver_of(world: "World", turtle: str) -> "Teleop":
     names = {node.name for node in world.nodes}
     name = "teleop_turtle" if "teleop_turtle" not in names else f"teleop_{turtle}"
     return Teleop(world, name, turtle=turtle)
-
-
-def scene_of(world: "World") -> "Scene":
-    """Return the scene of a world, with the turtles of a simulator here or in another process."""
-    from tftool.screens.terminal.scene import Scene
-
-    scene = Scene(world, simulator_of(world) or FarTurtles(world))
-
-    def take(solids: "Solids") -> None:
-        scene.solids = solids
-
-    take_solids(world, "screen", take, lambda told: world.log.warn("screen", told))
-    return scene
-
-
-def take_solids(
-    world: "World",
-    owner: str,
-    take: "Callable[[Solids], object]",
-    tell: Callable[[str], object],
-) -> None:
-    """Call `take` with the robot's shapes when a description arrives on /robot_description.
-
-    Args:
-        world: World in which the description is published.
-        owner: Name of the subscriber.
-        take: Function called with the shapes.
-        tell: Function called with sentences about shapes that are not drawn.
-    """
-    from tftool.drawing.solids import solids_of
-    from tftool.robots.mesh_folders import MeshFolders
-    from tftool.robots.urdf import parse_description
-    from tftool.world.nodes.joints import DESCRIPTION, LATCHED, description_type
-
-    def described(message: Any) -> None:
-        try:
-            robot = parse_description(message.data)
-        except InputError as error:
-            tell(f"the description on /{DESCRIPTION} is not drawn: {error}")
-            return
-        solids, missing = solids_of(
-            robot.links.values(), MeshFolders(), joints=robot.joints.values()
-        )
-        take(solids)
-        if missing:
-            tell(f"{len(missing)} shapes are not drawn: {missing[0]}")
-
-    world.subscribe(owner, DESCRIPTION, description_type(), described, LATCHED)
 
 
 def run_app(
@@ -157,10 +101,9 @@ def run_app(
         KeyboardInterrupt: If a signal or Ctrl-C ended the display.
     """
     from tftool.screens.terminal.turtle_app import TurtleApp
-    from tftool.screens.terminal.world_app import show
 
     app = TurtleApp(scene, None if driver is None else _press_of(scene, driver), setting, idle)
-    run(scene.world.clock, show(app, life))
+    run(scene.world.clock, app.run_with_world(life))
     return app.chosen
 
 

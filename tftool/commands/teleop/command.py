@@ -15,14 +15,13 @@ from tftool.commands.shared.hosting import join_session, open_session
 from tftool.commands.shared.on_screen import (
     driver_of,
     run_app,
-    scene_of,
     screen_lacks,
     screen_setting,
-    simulator_of,
 )
 from tftool.commands.teleop import TeleopOptions
 from tftool.messages.turtle_messages import Pose
 from tftool.world.nodes.turtle_drivers import BANNER, KEYS
+from tftool.world.nodes.turtlesim import simulator_of
 from tftool.world.world import World
 
 START = seconds(5)
@@ -151,6 +150,9 @@ def run(connection: Connection, options: TeleopOptions) -> ExitStatus:
             f"teleop reads keys from a terminal, and {lacking}. "
             'Give the keys on the command line instead: --keys "up up left".'
         )
+
+    # Imported here, because --keys needs no screen.
+    from tftool.screens.terminal.scene import scene_of
 
     session = open_session(connection, needs_turtles=True, by_hand=True)
     driver = driver_of(session.world, options.turtle)

@@ -10,13 +10,13 @@ from tftool.base.stamps import seconds
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import open_session
 from tftool.commands.shared.notices import is_news
-from tftool.commands.shared.on_screen import screen_lacks, screen_setting, take_solids
+from tftool.commands.shared.on_screen import screen_lacks, screen_setting
 from tftool.commands.tree import TreeOptions
 from tftool.commands.tree.command import fitting
 from tftool.doctor.frame_marks import marks
 from tftool.drawing.solids import Solids
+from tftool.screens.terminal.scene import take_solids
 from tftool.screens.terminal.tree_app import TreeWatch
-from tftool.screens.terminal.world_app import show
 from tftool.world.clock import Phase, pace_of, run
 from tftool.world.link.session_world import Session
 from tftool.world.log import LogRecord
@@ -39,7 +39,7 @@ def watch_with_keys(session: Session, options: TreeOptions) -> None:
 
     take_solids(world, "tree", take, app.tell)
     world.log.listen(tell, "screen")
-    run(world.clock, show(app, session.along(session.lasting(options.run_for))))
+    run(world.clock, app.run_with_world(session.along(session.lasting(options.run_for))))
 
 
 def show_changes(connection: Connection, options: TreeOptions) -> None:

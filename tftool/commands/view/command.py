@@ -18,7 +18,7 @@ from tftool.base.plain_text import short_size, visible
 from tftool.commands.shared.connection import WHOLE, Connection, open_from
 from tftool.commands.shared.hosting import open_session
 from tftool.commands.shared.notices import notice, tell_news
-from tftool.commands.shared.on_screen import at_rest, driver_of, simulator_of
+from tftool.commands.shared.on_screen import at_rest, driver_of
 from tftool.commands.shared.progress_bars import Bar, interruptible
 from tftool.commands.view import ViewOptions
 from tftool.frames.frame_files import beyond_limits, load_described
@@ -51,6 +51,7 @@ from tftool.world.nodes.joints import (
     description_type,
 )
 from tftool.world.nodes.turtle_drivers import IdleDrawing
+from tftool.world.nodes.turtlesim import simulator_of
 from tftool.world.world import World
 
 _MOST_TOLD = 5

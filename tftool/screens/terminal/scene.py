@@ -1,22 +1,24 @@
 """State of a world as screens show it, at the present or at a past time in the buffer."""
 
 from collections import deque
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
 from typing import Any, NamedTuple, Protocol
 
 from tftool.base.color import Color
-from tftool.base.errors import TransformException
+from tftool.base.errors import InputError, TransformException
 from tftool.base.stamps import LATEST, Duration, Stamp, as_seconds, seconds
 from tftool.buffer.sample import FrameInfo, Snapshot, TransformStamped
 from tftool.buffer.snapshot import rate_of
 from tftool.drawing import theme
 from tftool.drawing.cells import Stroke
 from tftool.drawing.plane import Drawn, PlaneFrame, PlanePicture, TurtleField
-from tftool.drawing.solids import Solids
+from tftool.drawing.solids import Solids, solids_of
 from tftool.geometry.motion import FIELD
 from tftool.geometry.rigid import Transform, heading, transform_from_pose
+from tftool.robots.mesh_folders import MeshFolders
+from tftool.robots.urdf import parse_description
 from tftool.screens.still_frames import ShownFrames
 from tftool.screens.terminal.frames_picture import (
     FrameTrails,
@@ -26,9 +28,12 @@ from tftool.screens.terminal.frames_picture import (
     natural_fixed,
     pictured,
 )
+from tftool.world.nodes.joints import DESCRIPTION, LATCHED, description_type
+from tftool.world.nodes.remote_turtles import FarTurtles
 from tftool.world.nodes.trail import Trail
 from tftool.world.nodes.turtle import PEN_COLOR
-from tftool.world.nodes.turtlesim import Turtlesim
+from tftool.world.nodes.turtlesim import Turtlesim, simulator_of
+from tftool.world.world import World
 
 FLASH = seconds(0.4)
 """Nanoseconds for which a wall is highlighted after a turtle hit it."""
@@ -440,3 +445,45 @@ def _frameless(turtle: _SeenTurtle, pose: Transform) -> PlaneFrame:
         is_turtle=True,
         is_frame=False,
     )
+
+
+def scene_of(world: World) -> Scene:
+    """Return the scene of a world, with the turtles of a simulator here or in another process."""
+    scene = Scene(world, simulator_of(world) or FarTurtles(world))
+
+    def take(solids: "Solids") -> None:
+        scene.solids = solids
+
+    take_solids(world, "screen", take, lambda told: world.log.warn("screen", told))
+    return scene
+
+
+def take_solids(
+    world: World,
+    owner: str,
+    take: Callable[[Solids], object],
+    tell: Callable[[str], object],
+) -> None:
+    """Call `take` with the robot's shapes when a description arrives on /robot_description.
+
+    Args:
+        world: World in which the description is published.
+        owner: Name of the subscriber.
+        take: Function called with the shapes.
+        tell: Function called with sentences about shapes that are not drawn.
+    """
+
+    def described(message: Any) -> None:
+        try:
+            robot = parse_description(message.data)
+        except InputError as error:
+            tell(f"the description on /{DESCRIPTION} is not drawn: {error}")
+            return
+        solids, missing = solids_of(
+            robot.links.values(), MeshFolders(), joints=robot.joints.values()
+        )
+        take(solids)
+        if missing:
+            tell(f"{len(missing)} shapes are not drawn: {missing[0]}")
+
+    world.subscribe(owner, DESCRIPTION, description_type(), described, LATCHED)

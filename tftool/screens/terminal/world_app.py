@@ -182,6 +182,54 @@ class WorldApp(App[None]):
         self.failure: Exception | None = None
         self.interrupted = False
 
+    async def run_with_world(
+        self, life: Coroutine[Any, Any, None], *, headless: bool = False
+    ) -> None:
+        """Run the screen on the terminal while its world runs, until the screen or the world ends.
+
+        The terminal is always restored before this function returns or raises.
+
+        Args:
+            life: Coroutine that runs the world; cancelled when the user quits.
+            headless: Whether to do everything except drawing on a terminal.
+
+        Raises:
+            NodeFailed: If a node raised an exception.
+            TftoolError: If the screen itself failed.
+            KeyboardInterrupt: If the user pressed Ctrl-C.
+        """
+        # Ctrl-C as a signal, not a key: a node may block the event loop, which reads keys.
+        os.environ.setdefault("TEXTUAL_ALLOW_SIGNALS", "1")
+        undo = self.world.clock.when_killed.add(leave_screen, "screen")
+        screen = asyncio.ensure_future(self.run_async(headless=headless))
+
+        async def lived() -> None:
+            # The nodes start after the panels were created, which takes a while.
+            await self.ready.wait()
+            self.begin(self.world.clock.now())
+            await life
+
+        living = asyncio.ensure_future(lived())
+        try:
+            await asyncio.wait({living, screen}, return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            if not screen.done():
+                self.exit()
+                await asyncio.wait({screen})
+            living.cancel()
+            await asyncio.wait({living})
+            life.close()
+            undo()
+        if not living.cancelled():
+            living.result()
+        if self.failure is not None:
+            raise TftoolError(
+                f"the screen failed: {type(self.failure).__name__}: {self.failure}"
+            ) from self.failure
+        screen.result()
+        if self.interrupted:
+            raise KeyboardInterrupt
+
     def begin(self, stamp: Stamp) -> None:
         """Do nothing; called when the world starts, and overridden to count seconds."""
 
@@ -311,51 +359,3 @@ class PanelApp(WorldApp):
 
     def _shade(self) -> None:
         self.theme = "tftool-light" if self._light else "tftool-dark"
-
-
-async def show(app: WorldApp, life: Coroutine[Any, Any, None], *, headless: bool = False) -> None:
-    """Run a screen on the terminal while its world runs, until the screen or the world ends.
-
-    The terminal is always restored before this function returns or raises.
-
-    Args:
-        app: Screen to run.
-        life: Coroutine that runs the app's world; cancelled when the user quits.
-        headless: Whether to do everything except drawing on a terminal.
-
-    Raises:
-        NodeFailed: If a node raised an exception.
-        TftoolError: If the screen itself failed.
-        KeyboardInterrupt: If the user pressed Ctrl-C.
-    """
-    # Ctrl-C as a signal, not a key: a node may block the event loop, which reads keys.
-    os.environ.setdefault("TEXTUAL_ALLOW_SIGNALS", "1")
-    undo = app.world.clock.when_killed.add(leave_screen, "screen")
-    screen = asyncio.ensure_future(app.run_async(headless=headless))
-
-    async def lived() -> None:
-        # The nodes start after the panels were created, which takes a while.
-        await app.ready.wait()
-        app.begin(app.world.clock.now())
-        await life
-
-    living = asyncio.ensure_future(lived())
-    try:
-        await asyncio.wait({living, screen}, return_when=asyncio.FIRST_COMPLETED)
-    finally:
-        if not screen.done():
-            app.exit()
-            await asyncio.wait({screen})
-        living.cancel()
-        await asyncio.wait({living})
-        life.close()
-        undo()
-    if not living.cancelled():
-        living.result()
-    if app.failure is not None:
-        raise TftoolError(
-            f"the screen failed: {type(app.failure).__name__}: {app.failure}"
-        ) from app.failure
-    screen.result()
-    if app.interrupted:
-        raise KeyboardInterrupt

@@ -272,3 +272,8 @@ class Turtlesim(Node):
 
     def _say(self, level: Level, text: str) -> None:
         self.world.log.add(level, self.name, text)
+
+
+def simulator_of(world: World) -> Turtlesim | None:
+    """Return the turtle simulator among a world's nodes; None if no node is a simulator."""
+    return next((node for node in world.nodes if isinstance(node, Turtlesim)), None)
