@@ -1,7 +1,7 @@
 import pytest
 
 from tftool.base.errors import InputError, UsageError
-from tftool.ros.host import names
+from tftool.ros.host import names, parameter_files
 
 
 @pytest.mark.parametrize(
@@ -123,12 +123,12 @@ def test_a_wrong_parameter_file_is_refused(tmp_path, text, told):
     file.write_bytes(text.encode("latin-1"))
 
     with pytest.raises(InputError, match=told):
-        names.read_parameters(file)
+        parameter_files.read_parameters(file)
 
 
 def test_a_value_that_is_no_yaml_is_a_text():
-    assert names.yaml_value("[1, 2") == "[1, 2"
-    assert names.yaml_value("") == ""
+    assert parameter_files.yaml_value("[1, 2") == "[1, 2"
+    assert parameter_files.yaml_value("") == ""
 
 
 @pytest.mark.parametrize(
@@ -152,7 +152,7 @@ def test_a_value_that_is_no_yaml_is_a_text():
     ],
 )
 def test_a_value_is_what_ros_2_takes_it_for(text, value):
-    found = names.yaml_value(text)
+    found = parameter_files.yaml_value(text)
 
     assert found == value
     assert type(found) is type(value)
@@ -162,7 +162,7 @@ def test_a_parameter_file_is_read_like_a_single_value(tmp_path):
     file = tmp_path / "params.yaml"
     file.write_text("a:\n  ros__parameters: {day: 2024-01-05, at: 12:30, far: 1e3}\n")
 
-    assert names.read_parameters(file) == [
+    assert parameter_files.read_parameters(file) == [
         ("/a", "day", "2024-01-05"),
         ("/a", "at", "12:30"),
         ("/a", "far", 1000.0),
@@ -173,7 +173,7 @@ def test_a_tab_after_a_value_is_read_as_libyaml_reads_it(tmp_path):
     file = tmp_path / "params.yaml"
     file.write_text("a:\n  ros__parameters:\n    port: 2368\t\t# of the lidar\n")
 
-    assert names.read_parameters(file) == [("/a", "port", 2368)]
+    assert parameter_files.read_parameters(file) == [("/a", "port", 2368)]
 
 
 def test_names_can_be_asked_for_as_in_rclpy(ros_runtime):

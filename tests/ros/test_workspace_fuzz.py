@@ -6,7 +6,7 @@ import pytest
 
 from tftool.base.errors import TftoolError
 from tftool.messages.classes import INTERFACES
-from tftool.ros.host import names
+from tftool.ros.host import parameter_files
 from tftool.ros.host.workspace import Workspace
 
 SOUND = {
@@ -89,7 +89,7 @@ def test_a_mutant_of_a_workspaces_file_is_read_skipped_or_refused(name, tmp_path
         path.write_bytes(mutant(SOUND[name], chance))
         try:
             if name == "p.yaml":
-                names.read_parameters(path)
+                parameter_files.read_parameters(path)
             else:
                 Workspace(tmp_path)
                 read(name)

@@ -4,14 +4,12 @@ Topic names in tftool are full names without the leading slash.
 """
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from tftool.base.errors import InputError, UsageError
-from tftool.base.named_files import read_named_text
+from tftool.base.errors import UsageError
 from tftool.base.plain_text import did_you_mean, near_names
 
 _STRANGE = re.compile(r"[^A-Za-z0-9_]")
@@ -275,6 +273,9 @@ def _take(options: RosOptions, word: str, words: Iterable[str]) -> None:
     elif known == "--remap":
         add_remap(options, value)
     elif known == "--params-file":
+        # Imported here, because few programs read a parameter file, and YAML takes 10 ms.
+        from tftool.ros.host.parameter_files import read_parameters
+
         options.parameters += read_parameters(Path(value))
     elif known == "--log-level":
         logger, found, rest = value.partition(":=")
@@ -289,6 +290,8 @@ def _take(options: RosOptions, word: str, words: Iterable[str]) -> None:
 
 def add_parameter(options: RosOptions, text: str) -> None:
     """Add the parameter in `text`, which is `name:=value` or `node:name:=value`, to the options."""
+    from tftool.ros.host.parameter_files import yaml_value
+
     name, found, value = text.partition(":=")
     if not found or not name:
         raise UsageError(f"'{text}' is not a valid parameter assignment: write name:=value")
@@ -321,128 +324,3 @@ def add_remap(options: RosOptions, text: str) -> None:
                     f"{fault.reason}"
                 )
         options.remaps.append(rule)
-
-
-def yaml_value(text: str) -> Any:
-    """Parse a parameter's value as YAML, as ROS 2 does: `2` is an int, `2.0` a float."""
-    try:
-        return strict_yaml_value(text)
-    except ValueError:
-        return text
-
-
-def strict_yaml_value(text: str) -> Any:
-    """Parse a parameter's value as YAML; raise an error for text that is not YAML.
-
-    Raises:
-        ValueError: If the text is not YAML.
-    """
-    import yaml
-
-    from tftool.base import yaml_guard
-
-    try:
-        return yaml_guard.load(text, _loader()) if text else ""
-    except (yaml.YAMLError, ValueError):
-        raise ValueError(
-            f"Unable to parse '{text}' as YAML; for a text, write ParameterValue(…, value_type=str)"
-        ) from None
-
-
-@cache
-def _loader() -> Any:
-    """Return a YAML loader that reads `12:30` and `2024-01-05` as texts, as ROS 2 does."""
-    import yaml
-
-    # ROS 2 reads with libyaml too, which permits a tab after a value.
-    class Loader(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):  # type: ignore[misc]
-        pass
-
-    kinds = {
-        "int": r"[-+]?(?:0[xX][0-9a-fA-F]+|0[0-7]*|[1-9][0-9]*)$",
-        "float": r"[-+]?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
-        r"|\.(?:inf|Inf|INF))$|\.(?:nan|NaN|NAN)$",
-    }
-    others = {f"tag:yaml.org,2002:{kind}" for kind in (*kinds, "timestamp")}
-    Loader.yaml_implicit_resolvers = {
-        first: [pair for pair in pairs if pair[0] not in others]
-        for first, pairs in yaml.SafeLoader.yaml_implicit_resolvers.items()
-    }
-    for kind, pattern in kinds.items():
-        tag = f"tag:yaml.org,2002:{kind}"
-        Loader.add_implicit_resolver(tag, re.compile(pattern), list("-+.0123456789"))
-    return Loader
-
-
-def read_parameters(
-    path: Path, substitute: Callable[[str], str] = str
-) -> list[tuple[str, str, Any]]:
-    """Read a ROS 2 parameter file; return a tuple (node pattern, name, value) for each parameter.
-
-    Args:
-        path: Path of the file.
-        substitute: Function that rewrites the file's text before it is parsed.
-
-    Raises:
-        InputError: If the file cannot be read, is not YAML, or is not a parameter file.
-    """
-    import yaml
-
-    from tftool.base import yaml_guard
-
-    try:
-        text = read_named_text(path)
-    except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
-        raise InputError(f"cannot read the parameter file '{path}': {reason}") from None
-    try:
-        tree = yaml_guard.compose(substitute(text), _loader())
-        found = list(_parameters_in(tree, ""))
-    except (yaml.YAMLError, ValueError) as error:
-        mark = getattr(error, "problem_mark", None)
-        where = f":{mark.line + 1}:{mark.column + 1}" if mark is not None else ""
-        problem = getattr(error, "problem", None) or str(error) or "not YAML"
-        raise InputError(f"{path}{where}: {problem}") from None
-    if not found and tree is not None:
-        raise InputError(
-            f"{path}: the file contains no parameters: write 'node_name:', indented below it "
-            "'ros__parameters:', and indented below that 'name: value'"
-        )
-    return found
-
-
-def _parameters_in(tree: Any, node: str) -> Iterator[tuple[str, str, Any]]:
-    """Yield (node pattern, name, value) for each parameter below a YAML node.
-
-    Working on YAML nodes instead of mappings preserves keys that occur more than once.
-
-    Args:
-        tree: YAML node of a parameter file.
-        node: Pattern of ROS node names that the keys above `tree` form.
-    """
-    import yaml
-
-    from tftool.base import yaml_guard
-
-    if not isinstance(tree, yaml.MappingNode):
-        return
-    for key, value in tree.value:
-        if key.value == "ros__parameters":
-            settings = yaml_guard.construct(value, _loader())
-            yield from ((f"/{node}", name, one) for name, one in flatten(settings or {}))
-        else:
-            yield from _parameters_in(value, join(node, str(key.value).strip("/")))
-
-
-def flatten(tree: Any, prefix: str = "") -> list[tuple[str, Any]]:
-    """Return the values in nested mappings as a list of (name, value).
-
-    A name consists of the keys of all levels, joined by dots, after `prefix`.
-    """
-    found: list[tuple[str, Any]] = []
-    for key, value in tree.items() if isinstance(tree, Mapping) else ():
-        if isinstance(value, Mapping):
-            found += flatten(value, f"{prefix}{key}.")
-        else:
-            found.append((f"{prefix}{key}", value))
-    return found

@@ -8,7 +8,7 @@ from typing import Any, get_args
 
 from tftool.base.errors import UsageError
 from tftool.base.named_files import read_named_text
-from tftool.ros.host import names
+from tftool.ros.host import parameter_files
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.parsing import parsed
 from tftool.ros.launch.substitutions import Substitution, is_true, perform
@@ -109,8 +109,10 @@ class ParameterFile:
             if not path.is_file() and context.launch is not None:
                 context.launch.warn(f"Parameter file path is not a file: {path}")
                 return []
-            return names.read_parameters(path)
-        return names.read_parameters(path, lambda text: perform(context, parsed(text, str(path))))
+            return parameter_files.read_parameters(path)
+        return parameter_files.read_parameters(
+            path, lambda text: perform(context, parsed(text, str(path)))
+        )
 
     def evaluate(self, context: LaunchContext) -> Path:
         """Return the path of the file.
@@ -289,7 +291,7 @@ def _typed(text: str, kind: Any) -> Any:
     """
     if kind is str:
         return text
-    value = names.strict_yaml_value(text)
+    value = parameter_files.strict_yaml_value(text)
     if kind is None:
         if isinstance(value, list) and not _is_uniform(value):
             raise ValueError(_not_uniform(value))

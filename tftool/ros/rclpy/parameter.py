@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from tftool.messages.classes import INTERFACES
-from tftool.ros.host import names
 from tftool.world.node_parameters import SCALARS, value_message, value_of
 
 
@@ -117,7 +116,9 @@ def get_parameter_value(string_value: str) -> Any:
 
     For a YAML text without a value, such as "null", the value is the text itself.
     """
-    value = names.yaml_value(string_value)
+    from tftool.ros.host.parameter_files import yaml_value
+
+    value = yaml_value(string_value)
     return Parameter("", value=string_value if value is None else value).get_parameter_value()
 
 
@@ -142,11 +143,13 @@ def parameter_dict_from_yaml_file(
         FileNotFoundError: If there is no such file.
         InputError: If the file cannot be read, is not YAML, or is not a parameter file.
     """
+    from tftool.ros.host.parameter_files import read_parameters
+
     if not Path(parameter_file).exists():
         raise FileNotFoundError(f"there is no parameter file '{parameter_file}'")
     wanted = {one.strip("/") for one in target_nodes or ()}
     found = {}
-    for node, name, value in names.read_parameters(Path(parameter_file)):
+    for node, name, value in read_parameters(Path(parameter_file)):
         plain = node.strip("/")
         chosen = use_wildcard if plain == "**" else not wanted or plain in wanted
         if chosen:

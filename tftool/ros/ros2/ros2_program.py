@@ -10,7 +10,7 @@ from typing import Any
 
 from tftool.base.errors import UsageError
 from tftool.messages.classes import INTERFACES
-from tftool.ros.host import executables, names, rosidl_runtime
+from tftool.ros.host import executables, parameter_files, rosidl_runtime
 from tftool.ros.host.package_files import read_text
 from tftool.ros.host.workspace import Workspace
 from tftool.ros.rclpy import core
@@ -66,7 +66,7 @@ def _message(asked: argparse.Namespace) -> Any:
         asked.kind, "Request" if kind == "srv" else "Goal"
     )
     made = part()
-    rosidl_runtime.fill(made, names.yaml_value(asked.values))
+    rosidl_runtime.fill(made, parameter_files.yaml_value(asked.values))
     return made
 
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from tftool.base.errors import UsageError
-from tftool.ros.host import names, rosidl_runtime
+from tftool.ros.host import parameter_files, rosidl_runtime
 from tftool.ros.rclpy import core
 from tftool.ros.rclpy.action_client import ActionClient, GoalStatus
 from tftool.ros.rclpy.node import Node
@@ -162,7 +162,7 @@ def _param_get(node: Node, asked: argparse.Namespace, show: Print) -> int:
 
 
 def _param_set(node: Node, asked: argparse.Namespace, show: Print) -> int:
-    client, value = _parameters(node, asked.node), names.yaml_value(asked.value)
+    client, value = _parameters(node, asked.node), parameter_files.yaml_value(asked.value)
     future = client.set_parameters([Parameter(asked.name, value=value)])
     return _changed(node, future, show, "Set parameter successful", "Setting")
 
