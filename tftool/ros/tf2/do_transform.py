@@ -4,7 +4,6 @@ The functions return new messages. The formula for each kind of quantity is in
 `tftool.geometry.quantities`.
 """
 
-import array
 from collections.abc import Callable, Iterable
 from typing import Any, TypeVar
 
@@ -156,24 +155,12 @@ def do_transform_cloud(cloud: Any, transform: Any) -> Any:
     Raises:
         AssertionError: If the cloud has no fields x, y and z.
     """
-    import numpy as np
+    from tftool.ros.tf2.point_clouds import moved_data
 
-    from tftool.ros.tf2.point_clouds import rows_of
-
-    fields = {field.name: field for field in cloud.fields}
-    if not {"x", "y", "z"} <= set(fields):
-        raise AssertionError("Point cloud needs the fields x, y, and z for the transformation")
     result = duplicate(cloud)
+    result.data = moved_data(cloud, _transform_of(transform))
     if hasattr(transform, "header"):
         result.header.frame_id = transform.header.frame_id
-    data = bytearray(cloud.data.tobytes())
-    # A view of the coordinates in the data: writing to it changes the cloud.
-    rows = rows_of(cloud, [fields[axis] for axis in "xyz"], data)
-    points = np.stack([rows[axis].ravel() for axis in "xyz"], axis=1)
-    moved = carry.points(_transform_of(transform), points)
-    for axis, values in zip("xyz", moved.T, strict=True):
-        rows[axis] = values.reshape(rows.shape)
-    result.data = array.array("B", data)
     return result
 
 

@@ -9,6 +9,8 @@ import numpy as np
 import numpy.typing as npt
 from numpy.lib.recfunctions import structured_to_unstructured
 
+from tftool.geometry import quantities
+from tftool.geometry.rigid import Transform
 from tftool.messages.classes import INTERFACES
 
 DUMMY_FIELD_PREFIX = "unnamed_field"
@@ -80,6 +82,24 @@ def rows_of(cloud: Any, fields: Iterable[Any], data: bytes | bytearray) -> npt.N
     form = dtype_from_fields(fields, cloud.point_step, cloud.is_bigendian)
     steps = (cloud.row_step, cloud.point_step)
     return np.ndarray((cloud.height, cloud.width), form, data, 0, steps)
+
+
+def moved_data(cloud: Any, a_from_b: Transform) -> "array.array[int]":
+    """Return the data of a cloud with its points transformed, and all other fields unchanged.
+
+    Raises:
+        AssertionError: If the cloud has no fields x, y and z.
+    """
+    fields = {field.name: field for field in cloud.fields}
+    if not {"x", "y", "z"} <= set(fields):
+        raise AssertionError("Point cloud needs the fields x, y, and z for the transformation")
+    data = bytearray(cloud.data.tobytes())
+    # A view of the coordinates in the data: writing to it changes the data.
+    rows = rows_of(cloud, [fields[axis] for axis in "xyz"], data)
+    points = np.stack([rows[axis].ravel() for axis in "xyz"], axis=1)
+    for axis, values in zip("xyz", quantities.points(a_from_b, points).T, strict=True):
+        rows[axis] = values.reshape(rows.shape)
+    return array.array("B", data)
 
 
 def read_points(
