@@ -20,6 +20,9 @@ from typing import Final
 from tftool.base.errors import InputError, UsageError
 from tftool.robots.mesh_folders import packages_around
 
+if sys.platform != "win32":
+    import resource
+
 TIME_LIMIT: Final = 20.0
 """Maximum duration of an expansion, seconds."""
 
@@ -146,10 +149,10 @@ def _lacks_memory(error: BaseException | None) -> bool:
 
 
 def _bound_memory() -> None:
-    # Windows has no such limit; without /proc the memory in use is unknown.
-    with contextlib.suppress(ImportError, OSError, ValueError):
-        import resource
-
+    if sys.platform == "win32":
+        return
+    # Without /proc, the memory in use is unknown.
+    with contextlib.suppress(OSError, ValueError):
         pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0])
         used = pages * resource.getpagesize()
         resource.setrlimit(resource.RLIMIT_AS, (used + MEMORY_LIMIT, used + MEMORY_LIMIT))

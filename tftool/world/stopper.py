@@ -21,6 +21,9 @@ from typing import Any, Final
 from tftool.base.errors import is_users_file
 from tftool.buffer.callbacks import Listeners
 
+if sys.platform != "win32":
+    import termios
+
 PATIENCE: Final = 2.0
 """Real seconds that a node may take to end after it was cancelled."""
 
@@ -231,8 +234,6 @@ class Stopper:
         """End the process at once, after restoring the terminal."""
         self._when_killed.call()
         if self._terminal is not None:
-            import termios
-
             with contextlib.suppress(termios.error):
                 termios.tcsetattr(0, termios.TCSANOW, self._terminal)
         # Not `sys.exit`, because the `finally` blocks of a blocked node could block, too.
@@ -324,13 +325,11 @@ def _say(sentence: str) -> None:
 
 def _terminal_settings() -> Any:
     """Return the settings of the terminal on stdin; None if stdin is not a terminal."""
-    try:
-        import termios
-
-        return termios.tcgetattr(0)
-    except (ImportError, OSError, ValueError):
+    if sys.platform == "win32":
         return None
-    except Exception:  # termios.error, which is not an OSError
+    try:
+        return termios.tcgetattr(0)
+    except (OSError, ValueError, termios.error):
         return None
 
 

@@ -16,6 +16,10 @@ from rich.live import Live
 from tftool.world.clock import Clock
 from tftool.world.stopper import leave_screen
 
+if sys.platform != "win32":
+    import termios
+    import tty
+
 _layers: list[tuple[Callable[[], object], Callable[[], object]]] = []
 """Functions `leave` and `enter` of each open block of `left_while_stopped`, outermost first."""
 
@@ -110,15 +114,15 @@ def keyboard(pressed: Callable[[str], object]) -> Iterator[bool]:
     Yields:
         True if keys are read: if stdin is a terminal, and the process is in the foreground.
     """
+    if sys.platform == "win32":
+        yield False
+        return
     try:
-        import termios
-        import tty
-
         number = sys.stdin.fileno()
         before = termios.tcgetattr(number)
         # A process in the background that changes the terminal's settings is stopped.
         is_ours = os.tcgetpgrp(number) == os.getpgrp()
-    except (ImportError, OSError, ValueError, AttributeError, termios_error()):
+    except (OSError, ValueError, AttributeError, termios.error):
         is_ours = False
     if not is_ours:
         yield False
@@ -149,15 +153,6 @@ def keyboard(pressed: Callable[[str], object]) -> Iterator[bool]:
     finally:
         loop.remove_reader(number)
         give_back()
-
-
-def termios_error() -> type[BaseException]:
-    """Return the exception type of failed terminal settings; OSError if termios is missing."""
-    try:
-        import termios
-    except ImportError:
-        return OSError
-    return termios.error
 
 
 def can_redraw() -> bool:
