@@ -19,8 +19,8 @@ from tftool.messages.layouts import CDR, ROS1
 from tftool.recordings.container_reader import Recorded, short_type
 from tftool.recordings.contract import RecordedTopic
 from tftool.robots.joint_motion import JointStates
-from tftool.robots.robot_model import Robot, set_still
-from tftool.robots.urdf import LARGEST, parse_description
+from tftool.robots.robot_model import Robot, parse_robot, set_still
+from tftool.robots.urdf import LARGEST
 
 JOINT_STATE: Final = "sensor_msgs/JointState"
 
@@ -234,7 +234,7 @@ def read_description(source: Recorded, topic: RecordedTopic) -> Robot | None:
         if _PLACEHOLDER.fullmatch(text.strip()):
             continue
         try:
-            return Robot(parse_description(text, f"{source.name}:{topic.name}"))
+            return parse_robot(text, f"{source.name}:{topic.name}")
         except DescriptionError as error:
             first = first or error
     if first is not None:

@@ -13,7 +13,7 @@ from tftool.buffer.sample import TransformStamped
 from tftool.geometry.conversions import quaternion_from_axis_angle
 from tftool.geometry.rigid import Transform
 from tftool.robots.description import RobotDescription, RobotJoint, RobotLink
-from tftool.robots.urdf import load_description
+from tftool.robots.urdf import load_description, parse_description
 
 if TYPE_CHECKING:
     # Numpy, which one pose does not need, takes longer to import than all of this.
@@ -288,6 +288,16 @@ class Robot:
             seen.add(after.name)
             leader = after
         return leader, factor, offset
+
+
+def parse_robot(text: str, name: str = "robot_description") -> Robot:
+    """Return the robot that the text of a URDF describes; `name` is for messages.
+
+    Raises:
+        DescriptionError: If the description has mistakes.
+        UnexpandedXacro: If the text has elements of xacro.
+    """
+    return Robot(parse_description(text, name))
 
 
 def load_urdf(path: str | Path, arguments: Mapping[str, str] | None = None) -> Robot:

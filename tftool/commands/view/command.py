@@ -27,8 +27,7 @@ from tftool.opener import named
 from tftool.recordings.find import Found, Kind
 from tftool.recordings.target import refuse_existing, whole_file
 from tftool.robots.mesh_folders import MeshFolders
-from tftool.robots.robot_model import Robot
-from tftool.robots.urdf import parse_description
+from tftool.robots.robot_model import parse_robot
 from tftool.screens.browser.drawn_messages import (
     IN_A_FILE,
     LiveDisplays,
@@ -175,7 +174,7 @@ def _hear_description(
 
     def described(message: Any) -> None:
         try:
-            robot = Robot(parse_description(message.data))
+            robot = parse_robot(message.data)
         except InputError as error:
             notice(f"The description on /{DESCRIPTION} is not shown: {visible(str(error))}")
             return

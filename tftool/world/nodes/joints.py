@@ -35,10 +35,9 @@ MOTIONS: Final[tuple[Motion, ...]] = get_args(Motion)
 def _described(text: str) -> "Robot":
     """Return the robot that a description (URDF text) defines."""
     # Imported here, with numpy and expat, because every scenario imports this module.
-    from tftool.robots.robot_model import Robot
-    from tftool.robots.urdf import parse_description
+    from tftool.robots.robot_model import parse_robot
 
-    return Robot(parse_description(text))
+    return parse_robot(text)
 
 
 def joint_state_type() -> type[Any]:
