@@ -243,16 +243,3 @@ FORMATS: Mapping[str, Callable[[Snapshot, Marks], Drawing]] = {
     "png": png,
 }
 """Function that draws each format, by the format's name."""
-
-SUFFIXES: Mapping[str, str] = {
-    ".dot": "dot",
-    ".gv": "dot",
-    ".mmd": "mermaid",
-    ".mermaid": "mermaid",
-    ".svg": "svg",
-    ".html": "html",
-    ".htm": "html",
-    ".pdf": "pdf",
-    ".png": "png",
-}
-"""Name of the format for each suffix of a file."""

@@ -83,13 +83,22 @@ def fitting(
     return lines
 
 
-TEXTS = {
+SUFFIXES = {
     ".txt": TreeFormat.tree,
     ".json": TreeFormat.json,
     ".yaml": TreeFormat.yaml,
     ".yml": TreeFormat.yaml,
+    ".dot": TreeFormat.dot,
+    ".gv": TreeFormat.dot,
+    ".mmd": TreeFormat.mermaid,
+    ".mermaid": TreeFormat.mermaid,
+    ".svg": TreeFormat.svg,
+    ".html": TreeFormat.html,
+    ".htm": TreeFormat.html,
+    ".pdf": TreeFormat.pdf,
+    ".png": TreeFormat.png,
 }
-"""Output format for each suffix of a file that is not a drawing."""
+"""Output format for each suffix of a file."""
 
 
 WITHOUT_MARKS = (TreeFormat.dot, TreeFormat.mermaid, TreeFormat.yaml)
@@ -150,18 +159,15 @@ def run(connection: Connection, options: TreeOptions) -> ExitStatus:
 def _form_of(output: Path | None) -> TreeFormat:
     if output is None or str(output) == "-":
         return TreeFormat.tree
-    from tftool.drawing.tree_picture import SUFFIXES
-
-    known = TEXTS | {suffix: TreeFormat(form) for suffix, form in SUFFIXES.items()}
     suffix = output.suffix.lower()
     if output.is_dir():
         raise UsageError(f"'{output}' is a folder: name a file in it.")
-    if suffix not in known:
+    if suffix not in SUFFIXES:
         raise UsageError(
-            f"'{output}' has no known suffix: end it in {', '.join(sorted(known))}, "
+            f"'{output}' has no known suffix: end it in {', '.join(sorted(SUFFIXES))}, "
             "or give --format."
         )
-    return known[suffix]
+    return SUFFIXES[suffix]
 
 
 def _write(
