@@ -342,11 +342,9 @@ class Buffer(Door):
         Raises:
             TypeError: If the records are not rows of eight whole numbers.
         """
-        import numpy as np
-
         if adopt_records(self, parent, child, records, authority):
             return None
-        numbers = records.view(np.float64)
+        numbers = records.view("f8")
         return self.set_transforms(
             parent, child, records[:, 0], numbers[:, 1:4], numbers[:, 4:], authority
         )

@@ -23,6 +23,9 @@ from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
 from tftool.base.errors import InputError, TftoolError, UsageError
 from tftool.base.plain_text import visible
 from tftool.base.stamps import as_seconds
@@ -275,15 +278,6 @@ def sweep(
     Returns:
         Number of recordings by outcome; list of all rows, empty if `output` is given.
     """
-    from rich.console import Console
-    from rich.progress import (
-        BarColumn,
-        MofNCompleteColumn,
-        Progress,
-        TextColumn,
-        TimeRemainingColumn,
-    )
-
     left = [
         source for source in dict.fromkeys(sources) if output is None or not output.holds(source)
     ]

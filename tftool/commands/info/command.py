@@ -10,6 +10,7 @@ from tftool.commands.info import InfoOptions
 from tftool.commands.shared.connection import Connection, open_from
 from tftool.commands.shared.notices import complain, notice
 from tftool.commands.shared.printer import line_width, write_json
+from tftool.doctor.evidence import Described, Scope, evidence_of_recording
 from tftool.drawing import recording_view
 from tftool.frames.recording_frames import odometry_notes
 from tftool.frames.source_options import DescriptionOptions
@@ -123,7 +124,6 @@ def _show(connection: Connection, place: str, name: str, *, for_programs: bool) 
 
 def _print(recording: Recording, name: str, *, has_urdf: bool) -> None:
     """Print a recording's contents and the doctor's findings."""
-    from tftool.doctor.evidence import Described, Scope, evidence_of_recording
     from tftool.doctor.judge import judge
     from tftool.drawing.finding_view import brief
 

@@ -25,12 +25,13 @@ from tftool.commands.shared.connection import HOME, NO_SESSION, Connection, Mode
 from tftool.commands.shared.notices import notice, tell_news
 from tftool.opener import kind_in_words, named, refuse_options_of_files, scenario_named
 from tftool.recordings.find import Kind
-from tftool.world.clock import Clock, SimClock
+from tftool.world.clock import SimClock
 from tftool.world.link.graph import SERVER, hosts
 from tftool.world.link.session_world import Session, joined_session, lived, session_name, shared
 from tftool.world.world import World
 
 if TYPE_CHECKING:
+    from tftool.scenario.play import Play
     from tftool.scenario.scenario import NodeEntry, Scenario
     from tftool.world.link.session import Link
 
@@ -171,17 +172,18 @@ def open_session(
             return joined.session
         link = joined.link
     try:
+        # Imported here, because a session that is joined needs no scenario.
+        from tftool.scenario.play import build, left_to_a_person
+
         scenario = _scenario_to_host(word, without, because)
         if by_hand:
-            from tftool.scenario.play import left_to_a_person
-
             scenario = left_to_a_person(scenario)
         if cache_time:
             scenario = replace(scenario, cache_time=cache_time)
         if simulated:
-            return _hosted(scenario, SimClock(), 0, None)
+            return _hosted(build(scenario, SimClock()), 0, None)
         clock = connection.providers.wall_clock(head_start=head_start)
-        return _hosted(scenario, clock, head_start, link)
+        return _hosted(build(scenario, clock), head_start, link)
     except BaseException:
         if link is not None:
             link.close()
@@ -305,21 +307,16 @@ def tell_where_to_look(connection: Connection, session: Session) -> None:
     )
 
 
-def _hosted(
-    scenario: "Scenario", clock: Clock, head_start: Duration, link: "Link | None"
-) -> Session:
+def _hosted(play: "Play", head_start: Duration, link: "Link | None") -> Session:
     """Return a session that hosts a scenario, even beyond the end of the scenario's duration."""
-    from tftool.scenario.play import build
-
-    play = build(scenario, clock)
 
     async def alive(until: Stamp | None) -> None:
         with shared(link, play.world):
             # A person may watch longer than the scenario's duration.
             await play.live(until, endless=until is None)
 
-    name = f"scenario '{visible(scenario.name)}'"
-    return Session(play.world, True, name, alive, head_start, scenario.duration, link, tell_news)
+    name, duration = f"scenario '{visible(play.scenario.name)}'", play.scenario.duration
+    return Session(play.world, True, name, alive, head_start, duration, link, tell_news)
 
 
 def _open_link(connection: Connection) -> tuple["Link | None", str]:
