@@ -14,8 +14,7 @@ from typing import Any
 import pytest
 
 _imports: list[Any] = []
-_added: list[str] = []
-"""Folders of the workspace's modules, inserted at the head of `sys.path`."""
+"""The open block of `ros_imports`, if any."""
 _set_up: list[Any] = []
 """Fixtures that are being set up, the innermost last."""
 _shared: list[Any] = []
@@ -63,34 +62,17 @@ def _provide(root: Path) -> None:
         root: Folder of the tests, inside the workspace.
     """
     if not _imports:
-        from tftool.ros.host import program
-        from tftool.ros.host.importing import environment, ros_modules
-        from tftool.ros.host.workspace import Workspace, use_workspace
+        from tftool.ros.testing import ros_imports
 
-        # These are for the import of tests and for their fixtures; each test enters them again.
-        variables, imports = environment(), ros_modules()
-        variables.__enter__()
-        # Tests sleep and start threads as nodes do, so they need the same time.
-        imports.__enter__().tested = root
-        _imports.extend((variables, imports))
-        # Use the interfaces, share folders and modules of the workspace around the tests.
-        workspace = Workspace(root)
-        use_workspace(workspace)
-        _added.extend(workspace.module_folders())
-        sys.path[:0] = _added
-        program.let_outsiders_join(_program_of_fixture)
+        imports = ros_imports(root, _program_of_fixture)
+        imports.__enter__()
+        _imports.append(imports)
 
 
 def pytest_unconfigure(config: pytest.Config) -> None:
     """Remove ROS 2's modules and the workspace's folders from Python's imports."""
-    if _imports:
-        from tftool.ros.host import program
-
-        program.let_outsiders_join(None)
     while _imports:
         _imports.pop().__exit__(None, None, None)
-    while _added:
-        sys.path.remove(_added.pop())
 
 
 @pytest.hookimpl(hookwrapper=True)

@@ -4,21 +4,51 @@ The test is itself a program in the simulated world. No simulated time passes be
 calls, and `rclpy.spin_once(node, timeout_sec=10.0)` takes no real time.
 """
 
+import sys
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from tftool.base.stamps import seconds
 from tftool.ros.host import names, user_code
 from tftool.ros.host.fibers import EndedError
-from tftool.ros.host.importing import ros_free
-from tftool.ros.host.program import Program
+from tftool.ros.host.importing import environment, ros_free, ros_modules
+from tftool.ros.host.program import Program, let_outsiders_join
+from tftool.ros.host.workspace import Workspace, use_workspace
 from tftool.ros.running import ProgramFailed
 from tftool.world.clock import Phase, SimClock, run
 from tftool.world.log import LogRecord
 from tftool.world.supervisor import live
 from tftool.world.world import World
+
+
+@contextmanager
+def ros_imports(root: Path, program_of_fixture: Callable[[], Program | None]) -> Iterator[None]:
+    """Make ROS 2's modules and a workspace's packages importable until the block ends.
+
+    Test files and their fixtures need these imports; each test adds the imports of its world.
+
+    Args:
+        root: Folder of the tests, inside the workspace.
+        program_of_fixture: Function that returns the program of the fixture that is being set up.
+    """
+    with environment(), ros_modules() as finder:
+        # Tests sleep and start threads as nodes do, so they need the same time.
+        finder.tested = root
+        # Use the interfaces, share folders and modules of the workspace around the tests.
+        workspace = Workspace(root)
+        use_workspace(workspace)
+        added = workspace.module_folders()
+        sys.path[:0] = added
+        let_outsiders_join(program_of_fixture)
+        try:
+            yield
+        finally:
+            let_outsiders_join(None)
+            for folder in added:
+                sys.path.remove(folder)
 
 
 class RosRuntime:
