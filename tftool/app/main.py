@@ -11,6 +11,7 @@ import gc
 import os
 import sys
 
+from tftool import __version__
 from tftool.base.exit_status import ExitStatus
 
 # No slow imports here: Ctrl-C before `main` starts would print a traceback.
@@ -202,7 +203,6 @@ def _own_options(words: list[str]) -> list[str] | None:
     if "--help" in asked or not (asked or rest):
         show_help(overview())
     elif "--version" in asked:
-        from tftool import __version__
         from tftool.buffer.native_kernel import BUILD
 
         sys.stdout.write(f"tftool {__version__} ({BUILD})\n")

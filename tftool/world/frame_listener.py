@@ -2,6 +2,7 @@
 
 import asyncio
 from collections.abc import Callable, Coroutine, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Final, TypeVar
 
@@ -71,8 +72,6 @@ def run_apart(clock: Clock, work: Coroutine[Any, Any, T]) -> T:
         asyncio.get_running_loop()
     except RuntimeError:
         return run(clock, work)
-    from concurrent.futures import ThreadPoolExecutor
-
     # Event loops cannot be nested: in a notebook, the caller's loop waits for this thread.
     with ThreadPoolExecutor(1, "tftool.open") as pool:
         return pool.submit(run, clock, work).result()

@@ -213,10 +213,11 @@ def run(options: CheckOptions) -> ExitStatus:
         )
     kept = None if options.recordings is None else _Kept(options.recordings)
     judging: AbstractContextManager[Callable[..., Verdict]]
-    if options.programs or options.launched is not None:
+    runs_programs = options.programs or options.launched is not None
+    if runs_programs or options.packages:
         # Imported here: users' programs need all of `ros`, a scenario's own nodes none of it.
-        from tftool.commands.check.programs import judge_with
-
+        from tftool.commands.check.programs import judge_packages, judge_with
+    if runs_programs:
         judging = judge_with(
             options.programs or (), options.launched, force=options.force, verbose=options.verbose
         )
@@ -229,9 +230,6 @@ def run(options: CheckOptions) -> ExitStatus:
             for word in _unfolded(words)
         ]
     if options.packages:
-        # Imported here: it needs all of `ros`.
-        from tftool.commands.check.programs import judge_packages
-
         judged += [(report, True) for report in judge_packages(options.packages)]
     if options.strict:
         judged = [(_strictly(report), readable) for report, readable in judged]
