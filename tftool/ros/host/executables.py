@@ -26,6 +26,12 @@ from tftool.world.nodes.broadcasters import (
     static_turtle,
 )
 from tftool.world.nodes.follower import Follower
+from tftool.world.nodes.joints import (
+    DESCRIPTION,
+    JOINT_STATES,
+    JointStatePublisher,
+    RobotStatePublisher,
+)
 from tftool.world.nodes.points import MessageBroadcaster, PointDrawer
 from tftool.world.nodes.turtle_drivers import DrawSquare, Mimic
 from tftool.world.nodes.turtlesim import Turtlesim
@@ -174,21 +180,18 @@ def _robot_of(asked: Asked) -> "Robot | None":
     Raises:
         UsageError: If the robot description is not valid; the text lists the mistakes.
     """
-    # This imports numpy, which the other nodes do not need.
-    from tftool.robots.robot_model import Robot, load_urdf
-    from tftool.robots.urdf import parse_description
+    # Imported here, because few programs need a robot, and reading XML takes 10 ms.
+    from tftool.robots.robot_model import load_urdf, parse_robot
 
     text = asked.text("robot_description", "")
     if text:
-        return Robot(parse_description(text, f"robot_description of {asked.name}"))
+        return parse_robot(text, f"robot_description of {asked.name}")
     if asked.arguments:
         return load_urdf(asked.arguments[0])
     return None
 
 
 def _robot_state_publisher(asked: Asked) -> Node:
-    from tftool.world.nodes.joints import DESCRIPTION, JOINT_STATES, RobotStatePublisher
-
     robot = _robot_of(asked)
     if robot is None:
         raise UsageError(
@@ -207,8 +210,6 @@ def _robot_state_publisher(asked: Asked) -> Node:
 
 
 def _joint_state_publisher(asked: Asked) -> Node:
-    from tftool.world.nodes.joints import DESCRIPTION, JOINT_STATES, JointStatePublisher
-
     positions = {
         name.removeprefix("zeros."): asked.number(name, 0.0)
         for name in list(asked.parameters)

@@ -34,7 +34,7 @@ MOTIONS: Final[tuple[Motion, ...]] = get_args(Motion)
 
 def _described(text: str) -> "Robot":
     """Return the robot that a description (URDF text) defines."""
-    # Imported here, with numpy and expat, because every scenario imports this module.
+    # Imported here, with expat, because every scenario imports this module.
     from tftool.robots.robot_model import parse_robot
 
     return parse_robot(text)
