@@ -162,13 +162,10 @@ class NodeParameters:
         fits = value is not None and kind.check(value)
         parameter = Parameter(name, kind if fits else Type.from_parameter_value(value), value)
         self._descriptors[name] = descriptor
-        reason = self.__range_fault(parameter)
-        if not reason:
-            result = self.__ask_callbacks([parameter])
-            reason = "" if result.successful else result.reason or "refused by a callback"
-        if reason:
+        reason = self.__range_fault(parameter) or self.__refusal([parameter])
+        if reason is not None:
             del self._descriptors[name]
-            raise InvalidParameterValueException(name, value, reason)
+            raise InvalidParameterValueException(name, value, reason or "refused by a callback")
         self._parameters[name] = parameter
         self.__tell(new=[parameter])
         return parameter
@@ -312,10 +309,11 @@ class NodeParameters:
             reason = self.__fault(one)
             if reason:
                 return set_result(False, reason)
-        result = self.__ask_callbacks(changes)
-        if result.successful:
-            self.__apply(changes)
-        return result
+        refusal = self.__refusal(changes)
+        if refusal is not None:
+            return set_result(False, refusal)
+        self.__apply(changes)
+        return set_result(True, "")
 
     def __settable(self, parameters: Iterable[Parameter]) -> None:
         for one in parameters:
@@ -422,12 +420,13 @@ class NodeParameters:
                 )
         return ""
 
-    def __ask_callbacks(self, changes: list[Parameter]) -> Any:
+    def __refusal(self, changes: list[Parameter]) -> str | None:
+        """Return the reason for which a callback rejects changes; None if all accept them."""
         for callback in reversed(self._on_set_parameters_callbacks):
             result = callback(changes)
             if not result.successful:
-                return result
-        return set_result(True, "")
+                return str(result.reason)
+        return None
 
     def add_on_set_parameters_callback(self, callback: Setter) -> None:
         """Register a callback that accepts or rejects changes; newer callbacks are called first."""

@@ -170,7 +170,8 @@ def quality_of(profile: QoSProfile, *, offered: bool) -> Quality:
 
 
 def _limit(duration: Duration) -> int | None:
-    return None if duration == Infinite else duration.nanoseconds or None
+    length = duration.nanoseconds
+    return None if length in (0, Infinite.nanoseconds) else length
 
 
 class QoSCompatibility(IntEnum):
