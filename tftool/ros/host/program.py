@@ -329,30 +329,32 @@ class Program(Node):
 
     async def first_of(
         self,
-        *waits: "asyncio.Future[Any]",
+        *waits: "asyncio.Future[Any] | asyncio.Event",
         until: Stamp | None = None,
         phase: Phase | None = None,
     ) -> bool:
-        """Wait in the event loop until one of the futures `waits` is done; cancel none of them.
+        """Wait in the event loop until one of the futures is done, or one of the events is set.
 
         Args:
-            waits: Futures to wait for.
+            waits: Futures and events to wait for; none of the futures is cancelled.
             until: Time at which to stop waiting, in nanoseconds; None for no limit.
             phase: Phase within the instant `until`; None for this program's phase (see `turn`).
 
         Returns:
-            Whether one of the futures is done.
+            Whether one of the futures is done or one of the events is set.
         """
-        timers = []
+        futures = {one for one in waits if isinstance(one, asyncio.Future)}
+        events = [one for one in waits if isinstance(one, asyncio.Event)]
+        own: list[asyncio.Future[Any]] = [asyncio.ensure_future(one.wait()) for one in events]
         if until is not None:
             turn = (self.turn, self.rank) if phase is None else (phase,)
-            timers.append(self.clock.timer(until, *turn))
+            own.append(self.clock.timer(until, *turn))
         try:
-            await asyncio.wait({*waits, *timers}, return_when=asyncio.FIRST_COMPLETED)
+            await asyncio.wait(futures.union(own), return_when=asyncio.FIRST_COMPLETED)
         finally:
-            for timer in timers:
-                timer.cancel()
-        return any(one.done() for one in waits)
+            for one in own:
+                one.cancel()
+        return any(one.done() for one in futures) or any(one.is_set() for one in events)
 
     def _count(self, share: float) -> None:
         # A loop that polls without waiting would stop simulated time for ever.

@@ -218,17 +218,8 @@ def wait_for_first(
         timeout: Longest wait in seconds; None for no limit.
     """
     owner = program.current()
-
-    async def wait() -> None:
-        waits = [asyncio.ensure_future(event.wait()) for event in events]
-        end = None if timeout is None else owner.clock.now() + seconds(timeout)
-        try:
-            await owner.first_of(*waits, until=end)
-        finally:
-            for one in waits:
-                one.cancel()
-
-    owner.ask(wait)
+    end = None if timeout is None else owner.clock.now() + seconds(timeout)
+    owner.ask(lambda: owner.first_of(*events, until=end))
     return next((event for event in events if event.is_set()), None)
 
 

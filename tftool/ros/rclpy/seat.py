@@ -222,11 +222,7 @@ class NodeSeat:
         try:
             while in_time and not there() and self.context.ok():
                 changed.clear()
-                waiting = asyncio.ensure_future(changed.wait())
-                try:
-                    in_time = await self.program.first_of(waiting, until=end, phase=Phase.WATCH)
-                finally:
-                    waiting.cancel()
+                in_time = await self.program.first_of(changed, until=end, phase=Phase.WATCH)
             return there()
         finally:
             stop()

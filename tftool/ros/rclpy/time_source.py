@@ -111,9 +111,6 @@ class TimeSource:
         for clock in self._clocks:
             clock.set_ros_time_override(self._last_time_set)
 
-    def _get_node(self) -> Any:
-        return self._node
-
     def _on_parameters(self, parameters: list[Parameter]) -> Any:
         for parameter in parameters:
             if parameter.name != USE_SIM_TIME_NAME:
