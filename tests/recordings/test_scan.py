@@ -38,6 +38,39 @@ def test_finds_the_same_in_sound_messages(layout, encode):
 
 @needs_scan
 @pytest.mark.parametrize(("layout", "encode"), LAYOUTS)
+@pytest.mark.parametrize("at_once", [40, 700])
+def test_finds_the_same_in_runs_of_messages_with_equal_frames(layout, encode, at_once):
+    draw = random.Random(8)
+    kinds = [
+        [("map", "odom"), ("odom", "base_link")],
+        [("map", "odom"), ("odom", "bass_link")],
+        [("odom", "base_link"), ("/map", "/odom"), ("a", "b")],
+        [("map", "odom"), ("a", "b"), ("map", "odom")],
+        [("a", "b"), ("b", "a")],
+        [],
+    ]
+    messages = []
+    while len(messages) < 4000:
+        kind = draw.choice(kinds)
+        for _ in range(draw.choice((1, 2, 3, 32, 33, 34, 100))):
+            stamps = [draw.randrange(10**9) for _ in kind]
+            message = bytearray(encode([(s, *p) for s, p in zip(stamps, kind, strict=True)]))
+            for place in walk(layout, bytes(message)).places:
+                message[place.numbers : place.numbers + 56] = draw.randbytes(56)
+            messages.append(bytes(message))
+        if draw.random() < 0.2:
+            messages.append(messages[-1][:-3])
+
+    plain, native = both(layout, messages, at_once)
+
+    same(plain, native)
+    assert len(native) > 4000
+    assert native.damage
+    assert sum(edge.slashed for edge in native.edges) > 100
+
+
+@needs_scan
+@pytest.mark.parametrize(("layout", "encode"), LAYOUTS)
 def test_finds_the_same_in_damaged_messages(layout, encode):
     draw = random.Random(6)
     sound = [encode([(1, "world", "turtle1"), (2, "turtle1", "carrot")]) for _ in range(500)]

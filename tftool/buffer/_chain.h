@@ -13,14 +13,6 @@
 
 #include "_path.h"
 
-#if defined(__GNUC__)
-#define INLINE static inline __attribute__((always_inline))
-#define PREFETCH(place) __builtin_prefetch(place)
-#else
-#define INLINE static inline
-#define PREFETCH(place) (void)(place)
-#endif
-
 /* A function with this attribute is compiled twice, also for processors with vectors of four
    numbers (AVX2). The loader chooses one; only glibc supports that. */
 #if defined(__GNUC__) && defined(__x86_64__) && defined(__GLIBC__)

@@ -1,4 +1,5 @@
-/* Test whether a history can store a sample unchanged, for the kernel and the scan of recordings.
+/* Parts of both the kernel and the scan of recordings: hints to compilers, and a test whether a history
+   can store a sample unchanged.
 
    The same test in Python is in `batch.insert.adopt`. */
 
@@ -7,6 +8,16 @@
 
 #include <float.h>
 #include <math.h>
+
+#if defined(__GNUC__)
+#define INLINE static inline __attribute__((always_inline))
+#define PREFETCH(place) __builtin_prefetch(place)
+#define APART static __attribute__((noinline))
+#else
+#define INLINE static inline
+#define APART static
+#define PREFETCH(place) (void)(place)
+#endif
 
 #define ROUNDING 8e-16 /* Largest error of the squared length of a unit quaternion. */
 
