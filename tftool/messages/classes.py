@@ -10,6 +10,7 @@ import math
 import struct
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from operator import attrgetter
 from threading import RLock
 from typing import Any, ClassVar, Final
@@ -280,7 +281,7 @@ class Interfaces(Schema):
         full = f"{package}/{kind}/{name}"
         if kind == "msg":
             return self.part(full)
-        return self._once(full, lambda: self._compound(package, kind, name))
+        return self._once(full, partial(self._compound, package, kind, name))
 
     def message(self, name: str) -> type[Message]:
         """Return the class of a message, named "package/msg/Name" or "package/Name".
@@ -324,17 +325,17 @@ class Interfaces(Schema):
                 found.append(kind)
         return found
 
-    def part(self, full: str) -> type[Message]:
+    def part(self, full: str, within: tuple[str, ...] = ()) -> type[Message]:
         """Return the class of a message, or of a part of a service or action.
 
-        A part is named like "std_srvs/srv/SetBool_Request".
+        Args:
+            full: Full name; a part is named like "std_srvs/srv/SetBool_Request".
+            within: Full names of the structures with a field of this class, outermost first.
 
         Raises:
             InputError: If there is no structure with that name, or the structure contains itself.
         """
-        return self._part(full, ())
 
-    def _part(self, full: str, within: tuple[str, ...]) -> type[Message]:
         def create() -> type[Message]:
             if full in within:
                 raise InputError(f"{full} contains itself, so no message of this type can exist")
@@ -407,7 +408,7 @@ class Interfaces(Schema):
         described = {"float32": "float", "float64": "double"}.get(type_name, type_name)
         if type_name not in PRIMITIVES:
             try:
-                kind = self._part(type_name, within)
+                kind = self.part(type_name, within)
             except InputError as error:
                 raise InputError(f"{owner}: field '{name}': {error}") from None
             described = type_name.replace("/msg/", "/")

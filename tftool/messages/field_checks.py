@@ -4,6 +4,7 @@ import array
 import math
 import struct
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 from tftool.messages.schema import FLOATS, INTEGERS, STRINGS
@@ -24,14 +25,18 @@ def element_check(name: str, kind: str | type[Any], text: int | None) -> Check:
         text: Maximum number of characters, if the field is a bounded string; else None.
     """
     if not isinstance(kind, str):
-        return _check_message(name, kind)
+        return partial(_check_message, name, kind)
     if kind in INTEGERS:
-        return _check_integer(name, kind)
+        letter = INTEGERS[kind]
+        bits = 8 * struct.calcsize(letter)
+        low, high = (-(1 << bits - 1), 1 << bits - 1) if letter.islower() else (0, 1 << bits)
+        return partial(_check_integer, name, low, high - 1)
     if kind in FLOATS:
-        return _check_float(name, kind)
+        single = kind in ("float32", "float")
+        return partial(_check_float, name, _FLOAT32_MAX if single else _FLOAT64_MAX)
     if kind in STRINGS:
-        return _check_string(name, text)
-    return _check_byte(name) if kind == "byte" else _check_bool(name)
+        return partial(_check_string, name, text)
+    return partial(_check_byte if kind == "byte" else _check_bool, name)
 
 
 def array_check(
@@ -104,83 +109,55 @@ def _check_length(name: str, length: int, size: int, bound: int | None) -> None:
         )
 
 
-def _check_bool(name: str) -> Check:
-    def check(value: Any) -> Any:
-        if not isinstance(value, bool):
-            raise _mismatch(name, "bool", value)
-        return value
-
-    return check
+def _check_bool(name: str, value: Any) -> Any:
+    if not isinstance(value, bool):
+        raise _mismatch(name, "bool", value)
+    return value
 
 
-def _check_integer(name: str, kind: str) -> Check:
-    letter = INTEGERS[kind]
-    bits = 8 * struct.calcsize(letter)
-    signed = letter.islower()
-    low, high = (-(1 << bits - 1), (1 << bits - 1) - 1) if signed else (0, (1 << bits) - 1)
-    word = "an integer" if signed else "an unsigned integer"
-
-    def check(value: Any) -> Any:
-        if not isinstance(value, int):
-            raise _mismatch(name, "int", value)
-        if not low <= value <= high:
-            raise AssertionError(f"The '{name}' field must be {word} in [{low}, {high}]")
-        return value
-
-    return check
+def _check_integer(name: str, low: int, high: int, value: Any) -> Any:
+    if not isinstance(value, int):
+        raise _mismatch(name, "int", value)
+    if not low <= value <= high:
+        word = "an integer" if low else "an unsigned integer"
+        raise AssertionError(f"The '{name}' field must be {word} in [{low}, {high}]")
+    return value
 
 
-def _check_float(name: str, kind: str) -> Check:
-    single = kind in ("float32", "float")
-    highest = _FLOAT32_MAX if single else _FLOAT64_MAX
-    word = "a float" if single else "a double"
-
-    def check(value: Any) -> Any:
-        if not isinstance(value, float):
-            raise _mismatch(name, "float", value)
-        if not (-highest <= value <= highest) and math.isfinite(value):
-            raise AssertionError(
-                f"The '{name}' field must be {word} in [{-highest!r}, {highest!r}]"
-            )
-        return value
-
-    return check
+def _check_float(name: str, highest: float, value: Any) -> Any:
+    if not isinstance(value, float):
+        raise _mismatch(name, "float", value)
+    if not (-highest <= value <= highest) and math.isfinite(value):
+        word = "a float" if highest == _FLOAT32_MAX else "a double"
+        raise AssertionError(f"The '{name}' field must be {word} in [{-highest!r}, {highest!r}]")
+    return value
 
 
-def _check_string(name: str, bound: int | None) -> Check:
-    def check(value: Any) -> Any:
-        if not isinstance(value, str):
-            raise _mismatch(name, "str", value)
-        if bound is not None and len(value) > bound:
-            raise AssertionError(f"The '{name}' field must be string value not longer than {bound}")
-        return value
-
-    return check
+def _check_string(name: str, bound: int | None, value: Any) -> Any:
+    if not isinstance(value, str):
+        raise _mismatch(name, "str", value)
+    if bound is not None and len(value) > bound:
+        raise AssertionError(f"The '{name}' field must be string value not longer than {bound}")
+    return value
 
 
-def _check_byte(name: str) -> Check:
-    def check(value: Any) -> Any:
-        if not (isinstance(value, bytes | bytearray | memoryview) and len(value) == 1):
-            raise AssertionError(f"The '{name}' field must be of type 'bytes' with length 1")
-        return bytes(value)
-
-    return check
+def _check_byte(name: str, value: Any) -> Any:
+    if not (isinstance(value, bytes | bytearray | memoryview) and len(value) == 1):
+        raise AssertionError(f"The '{name}' field must be of type 'bytes' with length 1")
+    return bytes(value)
 
 
-def _check_message(name: str, kind: type[Any]) -> Check:
-    def check(value: Any) -> Any:
-        if not isinstance(value, kind):
-            # rclpy's Time, Duration and Parameter have the same names as the message classes.
-            makers = ("to_msg", "to_parameter_msg")
-            made = next((one for one in makers if hasattr(value, one)), "")
-            hint = f", which is rclpy's own: append .{made}()" if made else ""
-            raise AssertionError(
-                f"The '{name}' field must be a sub message of type '{kind.__name__}', "
-                f"not '{type(value).__name__}'{hint}"
-            )
-        return value
-
-    return check
+def _check_message(name: str, kind: type[Any], value: Any) -> Any:
+    if not isinstance(value, kind):
+        # rclpy's Time, Duration and Parameter have the same names as the message classes.
+        makers = ("to_msg", "to_parameter_msg")
+        made = next((one for one in makers if hasattr(value, one)), "")
+        hint = f", which is rclpy's own: append .{made}()" if made else ""
+        raise AssertionError(
+            f"The '{name}' field must be a sub message of type '{kind.__name__}', "
+            f"not '{type(value).__name__}'{hint}"
+        )
+    return value
 
 
 def _mismatch(name: str, wanted: str, value: Any) -> AssertionError:
