@@ -70,19 +70,9 @@ class TransformLog:
     def transforms(self) -> "Transforms":
         """Return all transforms as columns of each edge, with log times and publishers."""
         # Imported here because most logs are never read, and need no numpy.
-        import numpy as np
+        from tftool.recordings.contract import Transforms
 
-        from tftool.recordings.contract import Edge, Publisher, Transforms
-
-        edges = []
-        for key, rows in self._rows.items():
-            poses = np.array(rows, dtype=np.float64)
-            records = poses.view(np.int64)
-            records[:, 0] = self._stamps[key]
-            edges.append(Edge(*key, 0, records, np.array(self._messages[key], dtype=np.int32)))
-        return Transforms(
-            tuple(edges),
-            np.array(self._logs, dtype=np.int64),
-            np.array(self._senders, dtype=np.int32),
-            tuple(Publisher(*one) for one in self._publishers),
+        edges = (
+            (key, rows, self._stamps[key], self._messages[key]) for key, rows in self._rows.items()
         )
+        return Transforms.of_lists(edges, self._logs, self._senders, self._publishers)

@@ -5,6 +5,7 @@ A recording is finite and complete. Times are whole nanoseconds: *stamps* are th
 including NaN, zero quaternions, stamps of 0 and leading slashes.
 """
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Protocol, TypeAlias
 
@@ -21,6 +22,9 @@ Floats: TypeAlias = npt.NDArray[np.float64]
 
 Indexes: TypeAlias = npt.NDArray[np.int32]
 """Indices in another column or list, shape (n,)."""
+
+Row: TypeAlias = tuple[float, ...]
+"""Place for a stamp, then x y z (metres) and x y z w (quaternion)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,6 +143,34 @@ class Transforms:
     publishers: tuple[Publisher, ...]
     damage: tuple[str, ...] = ()
 
+    @classmethod
+    def of_lists(
+        cls,
+        edges: Iterable[tuple[tuple[str, str, bool], Sequence[Row], Sequence[int], Sequence[int]]],
+        log_times: Sequence[int],
+        senders: Sequence[int],
+        publishers: Iterable[tuple[str, str]],
+    ) -> "Transforms":
+        """Create columns from lists.
+
+        Args:
+            edges: For each edge (parent, child, static), its rows, stamps and messages.
+            log_times: Time of reception of each message, nanoseconds.
+            senders: Publisher of each message.
+            publishers: Topic and node of each publisher.
+        """
+        made = []
+        for key, rows, stamps, messages in edges:
+            records = np.array(rows, dtype=np.float64).view(np.int64)
+            records[:, 0] = stamps
+            made.append(Edge(*key, 0, records, np.array(messages, dtype=np.int32)))
+        return cls(
+            tuple(made),
+            np.array(log_times, dtype=np.int64),
+            np.array(senders, dtype=np.int32),
+            tuple(Publisher(*one) for one in publishers),
+        )
+
     def __len__(self) -> int:
         return sum(len(edge) for edge in self.edges)
 
@@ -192,6 +224,20 @@ class Headers:
     log_times: Stamps
     names: tuple[str, ...]
     frames: Indexes
+
+    @classmethod
+    def of_rows(cls, topic: str, type: str, rows: Iterable[tuple[int, int, str]]) -> "Headers":
+        """Create columns from the stamp, the time of reception and the frame of each message."""
+        stamps, log_times, frames = zip(*rows, strict=True)
+        names = tuple(dict.fromkeys(frames))
+        return cls(
+            topic,
+            type,
+            np.array(stamps, dtype=np.int64),
+            np.array(log_times, dtype=np.int64),
+            names,
+            np.array([names.index(frame) for frame in frames], dtype=np.int32),
+        )
 
     def __len__(self) -> int:
         return len(self.stamps)

@@ -131,24 +131,14 @@ class HeaderListener:
 
     def headers(self) -> "dict[str, Headers]":
         """Return the received headers by topic: arrays of stamps, arrival times and frame ids."""
-        import numpy as np  # most worlds are never judged
-
+        # Imported here because most worlds are never judged, and need no numpy.
         from tftool.recordings.contract import Headers
 
-        found = {}
-        for (topic, interface), rows in self._heard.items():
-            if not rows:
-                continue
-            names = tuple(dict.fromkeys(frame for _, _, frame in rows))
-            found[f"/{topic}"] = Headers(
-                f"/{topic}",
-                interface.replace("/msg/", "/"),
-                np.array([stamp for stamp, _, _ in rows], dtype=np.int64),
-                np.array([heard for _, heard, _ in rows], dtype=np.int64),
-                names,
-                np.array([names.index(frame) for _, _, frame in rows], dtype=np.int32),
-            )
-        return found
+        return {
+            f"/{topic}": Headers.of_rows(f"/{topic}", interface.replace("/msg/", "/"), rows)
+            for (topic, interface), rows in self._heard.items()
+            if rows
+        }
 
 
 def _has_header(interface: str) -> bool:
