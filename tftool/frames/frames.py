@@ -1,5 +1,6 @@
 """All frames of a source over its whole time span, as returned by `tftool.open`."""
 
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Literal, Self, TypeAlias
 
 from tftool.base.plain_text import visible
@@ -45,9 +46,9 @@ class Frames:
         robot: "Robot | None" = None,
         log: "TransformLog | None" = None,
         found: "Found | None" = None,
-        notes: tuple[str, ...] = (),
+        notes: tuple[str, ...] | Callable[[], Iterable[str]] = (),
     ) -> None:
-        """Create the object; for a recording, leave out `buffer`, `span`, `robot` and `notes`.
+        """Create the object; for a recording, leave out `buffer`, `span` and `robot`.
 
         Args:
             kind: Kind of the source.
@@ -58,7 +59,7 @@ class Frames:
             robot: Robot of the description, if any.
             log: Log of all transforms in order of arrival, if any.
             found: Files that were read, if any.
-            notes: Sentences about the files.
+            notes: Sentences about the files, or a function that returns such sentences.
         """
         self.kind: FramesKind = kind
         self.name = name
@@ -144,11 +145,7 @@ class Frames:
     @property
     def notes(self) -> tuple[str, ...]:
         """Sentences about damage, missing frames and joints without a position."""
-        if self._recording is None:
-            return self._notes
-        from tftool.frames.recording_frames import recording_notes
-
-        return tuple(recording_notes(self._recording))
+        return tuple(self._notes() if callable(self._notes) else self._notes)
 
     def at(self, time: float) -> Stamp:
         """Return the stamp `time` seconds after the start; 0 (latest) if all frames are static."""

@@ -76,8 +76,13 @@ def read_recording(
     except BaseException:
         recording.close()
         raise
-    notes = () if robot is None else robot.notes
-    return Frames("recording", recording.name, recording=recording, found=found, notes=notes)
+    return Frames(
+        "recording",
+        recording.name,
+        recording=recording,
+        found=found,
+        notes=lambda: recording_notes(recording),
+    )
 
 
 def _robot_beside(options: DescriptionOptions) -> Robot | None:
