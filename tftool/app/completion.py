@@ -237,26 +237,25 @@ def _read_frames(word: str) -> list[str]:
     Raises:
         UsageError: If the word names a scenario.
     """
-    from tftool.recordings.cache_heads import default_folder, frames_kept, key_of
-    from tftool.recordings.find import Kind, find
+    from tftool.recordings import cache_heads, find
 
-    found = find(word)
-    if found.kind is Kind.DESCRIPTION:
+    found = find.find(word)
+    if found.kind is find.Kind.DESCRIPTION:
         from tftool.robots.robot_model import load_urdf
 
         return list(load_urdf(word).links)
     if not found.kind.is_recording:
         raise UsageError("the frames of a scenario are only known while the scenario runs")
-    kept = frames_kept(found)
-    if kept is None and not key_of(found):
-        from tftool.recordings.column_cache import ColumnCache
-        from tftool.recordings.recording import open_recording
+    kept = cache_heads.frames_kept(found)
+    if kept is None and not cache_heads.key_of(found):
+        from tftool.recordings import column_cache, recording
 
-        with open_recording(word) as recording:
-            kept = sorted({name for edge in recording.edges for name in (edge.parent, edge.child)})
-            folder = default_folder()
+        with recording.open_recording(word) as opened:
+            kept = sorted({name for edge in opened.edges for name in (edge.parent, edge.child)})
+            folder = cache_heads.default_folder()
             if folder is not None:
-                ColumnCache(folder).store(key_of(found, any_size=True), recording.transforms)
+                key = cache_heads.key_of(found, any_size=True)
+                column_cache.ColumnCache(folder).store(key, opened.transforms)
     return kept or []
 
 

@@ -34,16 +34,15 @@ def run(connection: Connection, options: InfoOptions) -> ExitStatus:
             return _show(connection, path, options.places[0], for_programs=options.for_programs)
     if options.output is None and all(_is_text(place) for place in options.places):
         return _list_texts(connection, options.places, for_programs=options.for_programs)
-    from tftool.commands.fleet import fleet
-    from tftool.commands.fleet.workers import workers_of
+    from tftool.commands.fleet import fleet, workers
 
-    workers, task = workers_of(options.processes, options.scheduler), fleet.Inventory()
+    executor, task = workers.workers_of(options.processes, options.scheduler), fleet.Inventory()
     if options.output is not None:
         counts = fleet.swept_into(
-            options.places, options.output, workers, task, resume=options.resume
+            options.places, options.output, executor, task, resume=options.resume
         )
     else:
-        counts, rows = fleet.sweep(fleet.expanded(options.places), None, workers, task)
+        counts, rows = fleet.sweep(fleet.expanded(options.places), None, executor, task)
         if options.for_programs:
             write_json(rows)
         else:
