@@ -43,7 +43,7 @@ class FoundProgram:
 
     package: str | None
     name: str
-    executable: executables.Found
+    executable: executables.FoundExecutable
     argv: Sequence[str]
     arguments: Sequence[str]
     options: names.RosOptions

@@ -60,8 +60,8 @@ def _check_words(connection: Connection, target: str, words: Sequence[str]) -> N
             f"put {' and '.join(given)} before FILE: words after FILE are passed to the program. "
             "To pass these words to the program, write 'tftool run FILE -- WORDS'."
         )
-    known = itertools.chain(*(option.opts for option in _context(connection).command.params))
-    options = {name for name in known if name.startswith("--")}
+    params = _context(connection).command.params
+    options = {name for option in params for name in option.opts if name.startswith("--")}
     for before, word in itertools.pairwise(["", *own_words]):
         option = word.partition("=")[0]
         if option in options:

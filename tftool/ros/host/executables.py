@@ -303,7 +303,7 @@ def names(workspace: Workspace) -> dict[tuple[str, str], Path | None]:
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
+class FoundExecutable:
     """Executable that `start` can start: a user's Python program, or one of tftool's nodes.
 
     Attributes:
@@ -318,7 +318,7 @@ class Found:
     ours: tuple[str, Callable[[Asked], Node]] | None = None
 
 
-def find(workspace: Workspace, package: str | None, executable: str) -> Found:
+def find(workspace: Workspace, package: str | None, executable: str) -> FoundExecutable:
     """Find an executable, and compile it if it is a file.
 
     Args:
@@ -334,17 +334,17 @@ def find(workspace: Workspace, package: str | None, executable: str) -> Found:
     # As in a sourced workspace, each package can import the others.
     importing.look_behind(workspace.module_folders)
     if package is None:
-        return Found(user_code.file_body(Path(executable)), Path(executable))
+        return FoundExecutable(user_code.file_body(Path(executable)), Path(executable))
     found = workspace.packages.get(package)
     if found is not None and executable in found.scripts:
         module, _, function = found.scripts[executable].partition(":")
         file = found.path.joinpath(*module.split(".")).with_suffix(".py")
         body = user_code.entry_point_body(module, function or "main", root=found.path)
-        return Found(body, file)
+        return FoundExecutable(body, file)
     if found is not None and (script := found.script_file(executable)) is not None:
-        return Found(user_code.file_body(script), script)
+        return FoundExecutable(user_code.file_body(script), script)
     if (package, executable) in _OURS:
-        return Found(ours=_OURS[package, executable])
+        return FoundExecutable(ours=_OURS[package, executable])
     elsewhere = _ELSEWHERE.get((package, executable))
     if elsewhere is not None:
         raise HasItsOwnCommand(
@@ -364,7 +364,7 @@ def find(workspace: Workspace, package: str | None, executable: str) -> Found:
 
 def start(
     world: World,
-    found: Found,
+    found: FoundExecutable,
     *,
     label: str,
     argv: Sequence[str],
