@@ -544,16 +544,16 @@ def no_transforms(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "truncated-recording",
     Severity.WARNING,
-    rule="part of the recording could not be read",
-    headline="part of the recording could not be read",
+    rule="the recording is damaged or incomplete",
+    headline="the recording is damaged or incomplete",
     detail="{damage}",
-    consequence="data after the damage is not in this report",
+    consequence="data that cannot be read is not in this report",
     causes=(
         "the recorder was killed",
         "a full disk",
     ),
 )
 def truncated_recording(model: Model, limits: Limits) -> Iterator[Hit]:
-    """The recorder was killed, or the file is damaged: only the first part was read."""
+    """The file is damaged, or parts of it are missing: the recorder was killed, for example."""
     if model.evidence.damage:
         yield Hit(facts={"damage": " ".join(model.evidence.damage)}, alone=True)
