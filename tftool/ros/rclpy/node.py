@@ -7,7 +7,7 @@ from contextlib import AbstractContextManager
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from tftool.messages.classes import Message
+from tftool.messages.classes import INTERFACES, Message
 from tftool.ros.host import names, program
 from tftool.ros.host.fibers import CodeLine, user_line
 from tftool.ros.rclpy.context import Context, context_of
@@ -29,6 +29,7 @@ from tftool.ros.rclpy.qos import (
     QoSProfile,
     declare_qos_parameters,
     profile_of,
+    qos_profile_rosout_default,
 )
 from tftool.ros.rclpy.qos_events import EndpointWatch
 from tftool.ros.rclpy.seat import NodeSeat
@@ -85,8 +86,11 @@ class Node(NodeGraph, NodeParameters):
             automatically_declare_parameters_from_overrides,
         )
         if enable_rosout and options.logs_to_rosout:
-            seat = self._tftool
-            seat.rosout = seat.keep(RosoutPublisher, seat, self._logger.name, rosout_qos_profile)
+            profile = rosout_qos_profile or qos_profile_rosout_default
+            kind = INTERFACES.message("rcl_interfaces/Log")
+            rosout = self.__keep(RosoutPublisher, kind, "/rosout", "rosout", profile)
+            rosout.logger = self._logger.name
+            self._tftool.rosout = rosout
         if start_parameter_services:
             self._serve_own(partial(services_of, self))
         if enable_logger_service:

@@ -4,17 +4,12 @@ from collections import deque
 from collections.abc import Callable
 from typing import Any, TypedDict
 
-from tftool.messages.classes import INTERFACES, Message
+from tftool.messages.classes import Message
 from tftool.messages.codec import codec
 from tftool.ros.host import values
 from tftool.ros.rclpy.entities import NodeEntity, Work, accepts
 from tftool.ros.rclpy.exceptions import InvalidHandle
-from tftool.ros.rclpy.qos import (
-    HistoryPolicy,
-    QoSProfile,
-    qos_profile_rosout_default,
-    quality_of,
-)
+from tftool.ros.rclpy.qos import HistoryPolicy, QoSProfile, quality_of
 from tftool.ros.rclpy.qos_events import EndpointWatch, Silence
 from tftool.ros.rclpy.seat import NodeSeat
 from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, Role, conflict
@@ -270,20 +265,10 @@ class RosoutPublisher(Publisher):
     """Publisher of a node's log messages on /rosout.
 
     Attributes:
-        logger: Name of the node's logger.
+        logger: Name of the node's logger; names of its child loggers begin with this name.
     """
 
-    def __init__(self, seat: NodeSeat, logger: str, profile: QoSProfile | None) -> None:
-        """Create the publisher on /rosout.
-
-        Args:
-            seat: tftool's state of the node.
-            logger: Name of the node's logger; names of its child loggers begin with this name.
-            profile: Quality of service; None for ROS 2's default.
-        """
-        kind: Any = INTERFACES.message("rcl_interfaces/Log")
-        super().__init__(seat, kind, "/rosout", "rosout", profile or qos_profile_rosout_default)
-        self.logger = logger
+    logger: str
 
     def speaks_for(self, logger: str) -> bool:
         """Return whether a logger is the node's logger or a child of the node's logger."""
