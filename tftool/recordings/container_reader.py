@@ -25,7 +25,7 @@ from tftool.recordings.contract import (
     Stamps,
     Transforms,
 )
-from tftool.recordings.decompression import LARGEST, unpack_beginning
+from tftool.recordings.decompression import LARGEST, keep_freed_memory, unpack_beginning
 from tftool.recordings.find import Found, Kind, container_in
 from tftool.recordings.foreign_transforms import FOREIGN, decoder_of
 from tftool.recordings.message_cutter import AnyCutter, Cutter, Decoding, cutter
@@ -255,6 +255,7 @@ class Recorded:
         self, wanted: Collection[int], progress: Progress | None = None, head: int | None = None
     ) -> Iterator[Batch]:
         """Yield batches of some streams, decompressed if rosbag2 compressed message by message."""
+        keep_freed_memory()
         for batch in self._container.batches(wanted, progress, head):
             start = int(batch.starts[0])
             if batch.buffer[start : start + 4].tobytes() == ZSTD_MAGIC:
