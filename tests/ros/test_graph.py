@@ -166,3 +166,14 @@ def test_an_endpoint_of_another_process_is_listed_with_its_gid(node, ros_runtime
 
     assert told.endpoint_gid == list(gid)
     assert "GID: 00.01.02.03.04.05.06.07.08.09.0a.0b.0c.0d.0e.0f\n" in str(told)
+
+
+def test_a_destroyed_node_offers_no_services(ros_runtime):
+    import rclpy
+
+    rclpy.init()
+    gone, stays = rclpy.create_node("gone"), rclpy.create_node("stays")
+    gone.destroy_node()
+
+    owners = {name.rpartition("/")[0] for name, _ in stays.get_service_names_and_types()}
+    assert owners == {"/stays"}

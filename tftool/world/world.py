@@ -136,7 +136,7 @@ class World:
         self._joined = 0
         self._topics: dict[str, Topic[Any]] = {}
         self._services: NamedOffers[Handler] = NamedOffers("service", self._changed)
-        self._deferred: list[Callable[[], object]] = []
+        self._deferred: list[tuple[Resident, Callable[[], object]]] = []
         self._actions: NamedOffers[Acceptor] = NamedOffers("action", self._changed)
         self._goal_watchers: dict[str, Listeners[GoalHandle]] = {}
         # Errors of the buffer that repeat, by the code at the beginning of the text.
@@ -317,18 +317,20 @@ class World:
         """
         return self._services.add(name, Offer(handler, kind, node, is_remote), shares=shares)
 
-    def serve_later(self, serve: Callable[[], object]) -> None:
+    def serve_later(self, node: Resident, serve: Callable[[], object]) -> None:
         """Call `serve`, which adds services, before any service is next looked up or called.
 
-        Every ROS 2 node has services for its parameters, but few programs use them.
+        Every ROS 2 node has services for its parameters, but few programs use them. If `node` is
+        removed before, `serve` is not called.
         """
-        self._deferred.append(serve)
+        self._deferred.append((node, serve))
         self._changed()
 
     @property
     def _served(self) -> NamedOffers[Handler]:
         while self._deferred:
-            self._deferred.pop(0)()
+            _, serve = self._deferred.pop(0)
+            serve()
         return self._services
 
     def has_service(self, name: str) -> bool:
@@ -579,6 +581,7 @@ class World:
 
     def remove(self, node: Resident) -> None:
         """Remove a node; in a running world, the node is stopped."""
+        self._deferred = [one for one in self._deferred if one[0] is not node]
         if node in self.nodes:
             self.nodes.remove(node)
             self._changed()

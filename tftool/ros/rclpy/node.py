@@ -350,12 +350,12 @@ class Node(NodeGraph, NodeParameters):
         group = callback_group or self._default_callback_group
 
         def offer() -> None:
-            for below, kind, answer in () if seat.is_destroyed else services():
+            for below, kind, answer in services():
                 full = seat.full(f"~/{below}", is_service=True)
                 if not seat.world.has_service(full):
                     seat.add(Service, seat, kind, f"~/{below}", full, answer, group)
 
-        seat.program.ask(partial(seat.world.serve_later, offer))
+        seat.program.ask(partial(seat.world.serve_later, seat.node, offer))
 
     def __keep(self, make: Callable[..., E], *args: Any) -> E:
         return self._tftool.keep(make, self._tftool, *args)

@@ -36,7 +36,7 @@ class NodeSeat:
         was_served: Whether the node was ever added to an executor.
         rosout: Publisher of the node's log messages; None if there is none.
         entities: The node's publishers, subscriptions, timers and the like, oldest first.
-        is_destroyed: Whether the node was destroyed.
+        node: Node of tftool's world for this node.
         authority: Name of the node as the sender of transforms.
     """
 
@@ -60,9 +60,9 @@ class NodeSeat:
         self.was_served = False
         self.rosout: Any = None
         self.entities: list[Any] = []
-        self.is_destroyed = False
-        self._node: ProgramNode = program.ask(self._join)
-        self.authority: str = self._node.name
+        self._destroyed = False
+        self.node: ProgramNode = program.ask(self._join)
+        self.authority: str = self.node.name
         program.nodes.append(self)
 
     def _join(self) -> ProgramNode:
@@ -118,7 +118,7 @@ class NodeSeat:
         Raises:
             InvalidHandle: If the node is destroyed.
         """
-        if self.is_destroyed:
+        if self._destroyed:
             raise InvalidHandle(
                 f"node '{self.name}' is destroyed, so nothing can be created on it: create it "
                 "before destroy_node()"
@@ -158,7 +158,7 @@ class NodeSeat:
 
     def leave(self) -> None:
         """Destroy the node with all its entities; call this in the program's thread."""
-        if not self.is_destroyed:
+        if not self._destroyed:
             self.program.unserved.append((self.name, self.unserved()))
             self.program.ask(self.withdraw)
             if self in self.program.nodes:
@@ -177,13 +177,13 @@ class NodeSeat:
 
     def withdraw(self) -> None:
         """Remove the node from the world; call this in the event loop's thread."""
-        if self.is_destroyed:
+        if self._destroyed:
             return
-        self.is_destroyed = True
+        self._destroyed = True
         for entity in self.entities:
             entity.withdraw()
         self.entities.clear()
-        self.world.remove(self._node)
+        self.world.remove(self.node)
 
     def late(self, full: str) -> list[tuple[Any, Endpoint | None]]:
         """Return the stored messages that a new TRANSIENT_LOCAL subscription to a topic receives.
