@@ -85,11 +85,7 @@ def find_program(workspace: Workspace, target: str, rest: Sequence[str]) -> Foun
 
 
 def start_program(
-    world: World,
-    found: FoundProgram,
-    *,
-    on_exit: Callable[[Program], object],
-    name: str = "",
+    world: World, found: FoundProgram, *, on_exit: Callable[[Program], object], name: str = ""
 ) -> None:
     """Start a Python file, or an executable of a package, as a program of a world.
 

@@ -97,10 +97,7 @@ def read_package(folder: Path) -> Package | None:
     if (folder / "setup.py").is_file():
         name_there, scripts, installed = _from_setup_py(folder / "setup.py")
         name = name or name_there
-    for file, read in (
-        ("setup.cfg", _from_setup_cfg),
-        ("pyproject.toml", _from_pyproject),
-    ):
+    for file, read in (("setup.cfg", _from_setup_cfg), ("pyproject.toml", _from_pyproject)):
         if (folder / file).is_file():
             told, found = read(folder / file)
             name = name or told

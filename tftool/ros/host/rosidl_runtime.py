@@ -199,11 +199,7 @@ def as_yaml(shown: Any, *, flow_style: bool = False) -> str:
     if not isinstance(shown, dict | list):
         return f"{shown}\n"
     text: str = yaml.safe_dump(
-        shown,
-        sort_keys=False,
-        allow_unicode=True,
-        default_flow_style=flow_style,
-        width=math.inf,
+        shown, sort_keys=False, allow_unicode=True, default_flow_style=flow_style, width=math.inf
     )
     return text
 

@@ -91,11 +91,7 @@ def shown_arguments(arguments: Sequence[DeclareLaunchArgument]) -> str:
         lines += ["", "  No arguments."]
     for one in arguments:
         default = one.shown_default()
-        lines += [
-            "",
-            f"    '{one.name}':",
-            f"        {one.description}",
-        ]
+        lines += ["", f"    '{one.name}':", f"        {one.description}"]
         if default is not None:
             lines.append(f"        (default: {default})")
     return "\n".join(lines)

@@ -160,9 +160,4 @@ class LaunchContext:
             self._restore(now)
 
     def _restore(self, kept: tuple[Any, ...]) -> None:
-        (
-            self.launch_configurations,
-            self.environment,
-            self.files,
-            self._locals,
-        ) = kept
+        (self.launch_configurations, self.environment, self.files, self._locals) = kept

@@ -49,10 +49,7 @@ class LaunchDescription(LaunchDescriptionEntity):
     """
 
     def __init__(
-        self,
-        initial_entities: Iterable[Any] | None = None,
-        *,
-        deprecated_reason: str | None = None,
+        self, initial_entities: Iterable[Any] | None = None, *, deprecated_reason: str | None = None
     ) -> None:
         self.entities: list[Any] = list(initial_entities or ())
         self.deprecated_reason = deprecated_reason

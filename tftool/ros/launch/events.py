@@ -157,11 +157,7 @@ class EventHandler:
     """
 
     def __init__(
-        self,
-        *,
-        matcher: Callable[[Event], bool],
-        entities: Any = None,
-        handle_once: bool = False,
+        self, *, matcher: Callable[[Event], bool], entities: Any = None, handle_once: bool = False
     ) -> None:
         self._matcher = matcher
         self._given = entities

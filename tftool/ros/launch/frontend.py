@@ -17,15 +17,7 @@ from tftool.ros.host import user_code
 from tftool.ros.host.error_text import error_sentence
 from tftool.ros.host.import_table import tagged
 from tftool.ros.host.importing import load
-from tftool.ros.launch import (
-    actions,
-    components,
-    lifecycle,
-    nodes,
-    parameters,
-    processes,
-    scope,
-)
+from tftool.ros.launch import actions, components, lifecycle, nodes, parameters, processes, scope
 from tftool.ros.launch.conditions import IfCondition, UnlessCondition
 from tftool.ros.launch.description import LaunchDescription, LaunchDescriptionSource
 from tftool.ros.launch.elements import Element, begins_as_xml, read

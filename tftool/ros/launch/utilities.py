@@ -36,10 +36,7 @@ def _one(sub: Any) -> Substitution:
 
 
 def ensure_argument_type(
-    argument: object,
-    types: "type | Sequence[type]",
-    argument_name: str,
-    caller: str | None = None,
+    argument: object, types: "type | Sequence[type]", argument_name: str, caller: str | None = None
 ) -> None:
     """Raise an error unless an argument is an instance of one of the types.
 

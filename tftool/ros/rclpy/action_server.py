@@ -11,11 +11,7 @@ from tftool.ros.host import values
 from tftool.ros.host.error_text import error_sentence
 from tftool.ros.rclpy.action_client import STATUS, GoalStatus
 from tftool.ros.rclpy.entities import WorkQueue, outcome
-from tftool.ros.rclpy.qos import (
-    QoSProfile,
-    qos_profile_action_status_default,
-    qos_profile_default,
-)
+from tftool.ros.rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_default
 from tftool.ros.rclpy.seat import seat_of
 from tftool.ros.rclpy.topics import Publisher
 from tftool.world.action_parts import ActionParts, goal_id_message

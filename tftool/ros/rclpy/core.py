@@ -123,10 +123,7 @@ def spin_once(
 
 
 def spin_until_future_complete(
-    node: Node,
-    future: Future,
-    executor: Executor | None = None,
-    timeout_sec: float | None = None,
+    node: Node, future: Future, executor: Executor | None = None, timeout_sec: float | None = None
 ) -> None:
     """Execute a node's callbacks until a future is done or the timeout has passed.
 

@@ -358,11 +358,7 @@ def _serve(node: Any, callback_group: Any) -> None:
         "lifecycle_msgs",
         ("change_state", "success", change_state),
         ("get_state", "current_state", lambda _: state(machine.state.label)),
-        (
-            "get_available_states",
-            "available_states",
-            lambda _: [state(one) for one in STATES],
-        ),
+        ("get_available_states", "available_states", lambda _: [state(one) for one in STATES]),
         (
             "get_available_transitions",
             "available_transitions",

@@ -9,12 +9,7 @@ from typing import Any, TypeVar
 
 from tftool.messages.classes import interface_name
 from tftool.ros.host.names import join
-from tftool.ros.rclpy.qos import (
-    HistoryPolicy,
-    QoSProfile,
-    profile_from,
-    qos_profile_unknown,
-)
+from tftool.ros.rclpy.qos import HistoryPolicy, QoSProfile, profile_from, qos_profile_unknown
 from tftool.ros.rclpy.seat import NodeSeat, seat_of
 from tftool.ros.rclpy.time import Duration, Infinite
 from tftool.world.endpoints import CLIENT, PUBLISHER, SUBSCRIPTION, Endpoint, Endpoints, Role

@@ -82,11 +82,7 @@ class NodeParameters:
     # Declaring
 
     def declare_parameter(
-        self,
-        name: str,
-        value: Any = None,
-        descriptor: Any = None,
-        ignore_override: bool = False,
+        self, name: str, value: Any = None, descriptor: Any = None, ignore_override: bool = False
     ) -> Parameter:
         """Declare a parameter; a value from the command line or launch file replaces `value`.
 
@@ -104,10 +100,7 @@ class NodeParameters:
         return self.__declare_one(name, value, descriptor, ignore_override)
 
     def declare_parameters(
-        self,
-        namespace: str,
-        parameters: Sequence[tuple[Any, ...]],
-        ignore_override: bool = False,
+        self, namespace: str, parameters: Sequence[tuple[Any, ...]], ignore_override: bool = False
     ) -> list[Parameter]:
         """Declare several parameters.
 

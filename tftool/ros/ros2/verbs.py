@@ -138,12 +138,7 @@ def _param_list(node: Node, asked: argparse.Namespace, show: Print) -> None:
             each(owner)
 
 
-_WORDS = {
-    bool: "Boolean",
-    int: "Integer",
-    float: "Double",
-    str: "String",
-}
+_WORDS = {bool: "Boolean", int: "Integer", float: "Double", str: "String"}
 
 
 def _values_of(node: Node, client: AsyncParameterClient, wanted: list[str]) -> list[Any]:

@@ -174,10 +174,7 @@ def read_points_numpy(
 
 
 def read_points_list(
-    cloud: Any,
-    field_names: Sequence[str] | None = None,
-    skip_nans: bool = False,
-    uvs: Any = None,
+    cloud: Any, field_names: Sequence[str] | None = None, skip_nans: bool = False, uvs: Any = None
 ) -> list[Any]:
     """Return the points of a cloud as named tuples; for the arguments see `read_points`."""
     points = read_points(cloud, field_names, skip_nans, uvs)

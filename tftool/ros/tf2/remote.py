@@ -48,11 +48,7 @@ class BufferClient(BufferInterface):
     """Client that looks up transforms in another node's buffer, with the methods of `Buffer`."""
 
     def __init__(
-        self,
-        node: Any,
-        ns: str,
-        check_frequency: float = 10.0,
-        timeout_padding: Any = _PADDING,
+        self, node: Any, ns: str, check_frequency: float = 10.0, timeout_padding: Any = _PADDING
     ) -> None:
         """Create a client for the buffer of another node.
 
@@ -109,11 +105,7 @@ class BufferServer:
     """Server that lets `BufferClient`s of other nodes look up transforms in a buffer."""
 
     def __init__(
-        self,
-        buffer: Buffer,
-        node: Any,
-        ns: str = "tf2_buffer_server",
-        check_period: Any = None,
+        self, buffer: Buffer, node: Any, ns: str = "tf2_buffer_server", check_period: Any = None
     ) -> None:
         """Start the action server.
 
