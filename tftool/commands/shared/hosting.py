@@ -16,6 +16,7 @@ A command that works in a running world (``echo``, ``monitor``, ``view``) opens 
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 from tftool.base.errors import LinkError, UsageError
@@ -27,7 +28,13 @@ from tftool.opener import kind_in_words, named, refuse_options_of_files, scenari
 from tftool.recordings.find import Kind
 from tftool.world.clock import SimClock
 from tftool.world.link.graph import SERVER, hosts
-from tftool.world.link.session_world import Session, joined_session, lived, session_name, shared
+from tftool.world.link.session_world import (
+    Session,
+    joined_session,
+    live_shared,
+    session_name,
+    shared,
+)
 from tftool.world.world import World
 
 if TYPE_CHECKING:
@@ -282,7 +289,7 @@ def open_own_session(connection: Connection, *, simulated: bool, because: str) -
         link = joined.link
         world = World(connection.providers.wall_clock())
     notice(f"{because}: hosting a separate world.")
-    alive = lived(world, link, "source")
+    alive = partial(live_shared, world, link, "source")
     return Session(world, True, "a world of its own", alive, link=link, tell=tell_news)
 
 
@@ -292,9 +299,8 @@ def open_empty_session(connection: Connection, *, simulated: bool = False) -> Se
         world, link = World(SimClock()), None
     else:
         world, link = World(connection.providers.wall_clock()), _open_link(connection)[0]
-    return Session(
-        world, True, "an empty world", lived(world, link, "source"), link=link, tell=tell_news
-    )
+    alive = partial(live_shared, world, link, "source")
+    return Session(world, True, "an empty world", alive, link=link, tell=tell_news)
 
 
 def tell_where_to_look(connection: Connection, session: Session) -> None:

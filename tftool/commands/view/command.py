@@ -40,7 +40,7 @@ from tftool.screens.browser.standalone import MOST_BYTES, StandaloneData, standa
 from tftool.screens.still_frames import first_look, first_moment
 from tftool.world.clock import Phase
 from tftool.world.clock import run as run_on
-from tftool.world.link.session_world import Session, lasting, lived
+from tftool.world.link.session_world import Session, lasting, live_shared
 from tftool.world.link.zenoh.rendezvous import page_secret
 from tftool.world.nodes.joints import (
     DESCRIPTION,
@@ -141,7 +141,7 @@ def _alive(
     RobotStatePublisher(world, robot=robot, publish_frequency=0.0)
     mover = JointStatePublisher(world, robot=robot, positions=joints, rate=30.0)
     name = f"robot description '{visible(found.name)}'"
-    session = Session(world, True, name, lived(world, None, "host"), tell=tell_news)
+    session = Session(world, True, name, partial(live_shared, world, None, "host"), tell=tell_news)
     return session, ShownRobot(robot, MeshFolders(found.paths[0], meshes), mover)
 
 

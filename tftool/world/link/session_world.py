@@ -5,6 +5,7 @@ from collections import Counter
 from collections.abc import Callable, Coroutine, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from tftool.base.errors import LinkError
@@ -158,7 +159,7 @@ def joined_session(
         tell: Function called with every log message.
     """
     world = World(clock, cache_time=cache_time or CACHE_TIME)
-    alive = lived(world, link, "guest")
+    alive = partial(live_shared, world, link, "guest")
     return Session(world, False, session_name(link, place), alive, link=link, tell=tell)
 
 
@@ -214,16 +215,12 @@ def shared(link: "Link | None", world: World, role: str = "host") -> Iterator[No
         link.close()
 
 
-def lived(
-    world: World, link: "Link | None", role: str
-) -> Callable[[Stamp | None], Coroutine[Any, Any, None]]:
-    """Return a coroutine function that shares and runs a world until a time, or for ever."""
-
-    async def alive(until: Stamp | None) -> None:
-        with shared(link, world, role):
-            await live(world, until=until)
-
-    return alive
+async def live_shared(
+    world: World, link: "Link | None", role: str, until: Stamp | None = None
+) -> None:
+    """Share and run a world until the time `until`, or for ever; see `shared` and `live`."""
+    with shared(link, world, role):
+        await live(world, until=until)
 
 
 _GLANCES = seconds(0.1)
