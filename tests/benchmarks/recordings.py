@@ -185,32 +185,74 @@ def _packed(path: Path) -> list[tuple[bytes, int]]:
         ]
 
 
-def _unpacking(path: Path, most: int) -> int:
-    """Unpack the chunks in threads into memory that is reused, and do nothing else."""
+def _unpacker(path: Path, largest: int) -> Callable[[bytes, int], "bytes | memoryview"]:
+    """Return a function that unpacks a chunk of a recording, zstd into memory that is reused."""
     import bz2
 
     import lz4.frame
     import zstandard
 
-    def zstd(pieces: list[tuple[bytes, int]]) -> None:
-        room = memoryview(bytearray(max(size for _, size in pieces)))
-        unpacker = zstandard.ZstdDecompressor()
-        for packed, size in pieces:
-            with unpacker.stream_reader(packed) as reader:
-                assert reader.readinto(room[:size]) == size
+    if "zstd" not in path.name:
+        unpack = {"lz4": lz4.frame.decompress, "bz2": bz2.decompress, "none": bytes}
+        found = unpack[path.stem.split("_")[1]]
+        return lambda packed, size: found(packed)
+    room = memoryview(bytearray(largest))
+    unpacker = zstandard.ZstdDecompressor()
 
-    def others(pieces: list[tuple[bytes, int]]) -> None:
-        unpack = lz4.frame.decompress if "lz4" in path.name else bz2.decompress
-        for packed, _ in pieces:
-            assert unpack(packed)
+    def zstd(packed: bytes, size: int) -> memoryview:
+        with unpacker.stream_reader(packed) as reader:
+            assert reader.readinto(room[:size]) == size
+        return room[:size]
 
-    # The reason is in tftool.recordings.decompression, at lz4.
+    return zstd
+
+
+def _in_threads(path: Path, work: Callable[[list[tuple[bytes, int]]], None]) -> int:
+    """Divide the chunks of a recording among as many threads as there are processors."""
+    # The reason is in tftool.recordings.decompression, at `keep_freed_memory`.
     np.empty(31 << 20, dtype=np.uint8)
     pieces, workers = _packed(path), len(os.sched_getaffinity(0))
     with ThreadPoolExecutor(workers) as pool:
-        one = zstd if "zstd" in path.name else others
-        list(pool.map(one, [pieces[k::workers] for k in range(workers)]))
+        list(pool.map(work, [pieces[k::workers] for k in range(workers)]))
     return TRANSFORMS
+
+
+def _unpacking(path: Path, most: int) -> int:
+    """Unpack the chunks in threads into memory that is reused, and do nothing else."""
+
+    def work(pieces: list[tuple[bytes, int]]) -> None:
+        unpack = _unpacker(path, max(size for _, size in pieces))
+        for packed, size in pieces:
+            assert unpack(packed, size)
+
+    return _in_threads(path, work)
+
+
+def _floor(path: Path, most: int) -> int:
+    """Do in threads the work that no reader can avoid.
+
+    Read the file, unpack the chunks, read the unpacked bytes once, and write 64 bytes for each
+    transform to new memory in large pages.
+    """
+    from tftool.base.native import PAGE, large_pages
+
+    total = sum(len(packed) for packed, _ in _packed(path))
+
+    def work(pieces: list[tuple[bytes, int]]) -> None:
+        unpack = _unpacker(path, max(size for _, size in pieces))
+        share = sum(len(packed) for packed, _ in pieces) / total
+        size = int(64 * TRANSFORMS * share)
+        columns = np.frombuffer(large_pages(size + PAGE, size) or bytearray(size), dtype=np.uint8)
+        with path.open("rb", buffering=0) as stream:
+            for number, (packed, length) in enumerate(pieces):
+                found = stream.read(len(packed))
+                assert len(found) == len(packed)
+                data = found if path.stem.split("_")[1] == "none" else unpack(packed, length)
+                assert np.frombuffer(data, dtype=np.uint64, count=len(data) // 8).max()
+                begin, end = (size * k // len(pieces) for k in (number, number + 1))
+                columns[begin:end] = 1
+
+    return _in_threads(path, work)
 
 
 SIDES: dict[str, Callable[[Path, int], int]] = {
@@ -219,6 +261,12 @@ SIDES: dict[str, Callable[[Path, int], int]] = {
     "mcap": _mcap,
     "transform_tree": _transform_tree,
     "unpacking": _unpacking,
+    "floor": _floor,
+}
+
+LIMITS = {
+    "unpacking": "unpacking alone",
+    "floor": "floor: read the file, unpack, read the bytes, write 64 bytes a transform",
 }
 
 
@@ -278,6 +326,8 @@ def report() -> str:
             sides = ["ours", *there]
             if kind.split()[-1] in ("zstd", "lz4", "bz2"):
                 sides.append("unpacking")
+            if kind.split()[-1] in ("zstd", "lz4", "none"):
+                sides.append("floor")
             spent: dict[str, list[tuple[float, float]]] = {one: [] for one in sides}
             memory = []
             for _ in range(TURNS):
@@ -291,8 +341,14 @@ def report() -> str:
             peer_times = {one: least[one] for one in there}
             told = f"{_told(least['ours'], peer_times)}, {statistics.median(memory):.0f} MB"
             lines.append(f"  {kind}, {per_message} a message: {told}")
-            if "unpacking" in least:
-                lines.append(f"    unpacking alone: {_told(least['unpacking'], peer_times)}")
+            for one, text in LIMITS.items():
+                if one in least:
+                    processor, clock = (
+                        f"{100 * few / much:.0f} %"
+                        for few, much in zip(least[one], least["ours"], strict=True)
+                    )
+                    told = _told(least[one], peer_times if one == "unpacking" else {})
+                    lines.append(f"    {text}: {told}, {processor} ({clock}) of our time")
             if path.is_file():
                 path.unlink()
         lines += _big(Path(folder))
