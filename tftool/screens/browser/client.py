@@ -121,12 +121,12 @@ class PageClient:
         self._asked = True
 
     def wants(self) -> bool:
-        """Return whether to send poses: always for a live page, once per request for the past."""
+        """Return whether to send poses: always in the present, else once after a request."""
         asked, self._asked = self._asked, False
         return asked or self.at is None
 
     def offer(self, tree: TreeMessage, pair: str | None, poses: Poses) -> None:
-        """Set the next messages to send: tree if changed, pair, poses; drop those still waiting."""
+        """Replace the waiting messages about frames: tree (if it has changed), pair and poses."""
         if self._next:
             self.skipped += 1
         self._next = [] if self._revision == tree.revision else [tree.text]

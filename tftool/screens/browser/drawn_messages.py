@@ -134,7 +134,7 @@ def pack_tracks(
 ) -> list[dict[str, Any]]:
     """Append messages of topics to a block of packed data; return a header for each topic.
 
-    For each shape, the pose of the shape's frame at the stamp is added, in the root of the tree.
+    Each shape gets the pose of its frame at its stamp, in the root of the frame's tree.
     """
     return [
         {
@@ -177,9 +177,9 @@ def _packed_shape(block: PackedBlock, shape: Shape, buffer: Buffer, epoch: Stamp
 
 
 def place(shape: Shape, buffer: Buffer) -> Shape:
-    """Return a shape with the attribute `placement`: the pose of the shape's frame at the stamp.
+    """Return a copy of a shape with `placement`, the pose of the shape's frame at the stamp.
 
-    A shape that was placed before stays unchanged.
+    A shape that already has a placement is returned unchanged.
     """
     if shape.placement is not None:
         return shape
@@ -220,8 +220,8 @@ class _HeardTopic:
         held: Received messages not yet converted to shapes, with their times of arrival. Only the
             last message is stored, except for types such as MarkerArray, whose messages change
             earlier shapes.
-        waiting: Message as shapes, while the poses of the shapes' frames are not known; else None.
-        rounds: Number of calls of `LiveDisplays.round` for which `waiting` has waited.
+        waiting: Last message, until the poses of its shapes are known; otherwise None.
+        rounds: Number of calls of `LiveDisplays.round` since `waiting` was set.
         is_news: Whether there is a fault that was not reported to the page yet.
         block: Last packed data sent to pages.
     """
@@ -333,45 +333,45 @@ class LiveDisplays:
             self._refused.add(topic)
             del self._heard[topic]
 
-    def _is_due(self, one: _HeardTopic) -> bool:
+    def _is_due(self, topic: _HeardTopic) -> bool:
         """Process a topic's new messages; return whether the page must get new shapes or faults."""
-        self._draw(one)
-        if one.waiting is not None:
-            one.rounds += 1
+        self._draw(topic)
+        if topic.waiting is not None:
+            topic.rounds += 1
             buffer = self._world.buffer
-            shapes = one.waiting.shapes
+            shapes = topic.waiting.shapes
             # The buffer may have pruned the transforms of shapes that were placed before.
             new = [shape for shape in shapes if shape.placement is None]
-            if one.rounds > PATIENCE or all(_is_known(shape, buffer) for shape in new):
+            if topic.rounds > PATIENCE or all(_is_known(shape, buffer) for shape in new):
                 placed = tuple(place(shape, buffer) for shape in shapes)
-                one.drawn.messages = [replace(one.waiting, shapes=placed)]
-                one.waiting = None
+                topic.drawn.messages = [replace(topic.waiting, shapes=placed)]
+                topic.waiting = None
                 return True
-        return one.is_news
+        return topic.is_news
 
-    def _draw(self, one: _HeardTopic) -> None:
+    def _draw(self, topic: _HeardTopic) -> None:
         """Convert a topic's new messages to shapes, unless earlier shapes still wait for poses."""
-        if one.waiting is not None or not one.held:
+        if topic.waiting is not None or not topic.held:
             return
-        one.rounds = 0
-        last = one.drawn.messages[-1] if one.drawn.messages else None
-        while one.held:
-            stamp, message = one.held.popleft()
+        topic.rounds = 0
+        last = topic.drawn.messages[-1] if topic.drawn.messages else None
+        while topic.held:
+            stamp, message = topic.held.popleft()
             try:
                 arrival = Arrival(stamp, self._limits.points, last)
-                last = one.waiting = DISPLAYS[one.drawn.type](message, arrival)
+                last = topic.waiting = DISPLAYS[topic.drawn.type](message, arrival)
                 faults = last.faults
             except (InputError, ValueError, TypeError) as error:
                 faults = (str(error),)
             for fault in faults:
-                one.drawn.note(fault)
-                one.is_news = True
+                topic.drawn.note(fault)
+                topic.is_news = True
 
-    def _packed(self, one: _HeardTopic) -> bytes:
-        one.is_news = False
+    def _packed(self, topic: _HeardTopic) -> bytes:
+        topic.is_news = False
         # A block for each topic, because the page discards them separately.
         block = PackedBlock()
-        tracks = pack_tracks(block, [one.drawn], self._world.buffer, self._world.clock.epoch)
+        tracks = pack_tracks(block, [topic.drawn], self._world.buffer, self._world.clock.epoch)
         return block.plain({"tracks": tracks})
 
 

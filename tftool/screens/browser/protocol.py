@@ -35,7 +35,7 @@ def stamp_at(epoch: Stamp, moment: float) -> Stamp:
 
 
 def reach(frames: Iterable[FrameInfo]) -> tuple[Stamp, Stamp] | None:
-    """Return the oldest and newest stamp of all edges that move; None if all edges are static."""
+    """Return the oldest and newest stamp of all moving frames; None if all frames are static."""
     oldest = newest = 0
     for frame in frames:
         if frame.parent is not None and not frame.is_static and frame.samples:
@@ -177,18 +177,18 @@ def encode_pair(buffer: Buffer, epoch: Stamp, target: str, source: str, at: Stam
     return json.dumps(answer("pair", told))
 
 
-def encode_series(buffer: Buffer, epoch: Stamp, asked: PageRequest) -> str:
-    """Return the message with a pair's poses at evenly spread times; null for a failed lookup."""
-    stamps = _stamps(epoch, asked)
+def encode_series(buffer: Buffer, epoch: Stamp, request: PageRequest) -> str:
+    """Return the message with a pair's poses at the requested times; null for a failed lookup."""
+    stamps = _stamps(epoch, request)
     told: dict[str, Any] = {
-        "target": asked["target"],
-        "source": asked["source"],
+        "target": request["target"],
+        "source": request["source"],
         "times": [since(epoch, stamp) for stamp in stamps],
     }
-    columns: list[list[float | None]] = [[None] * asked["count"] for _ in SERIES]
+    columns: list[list[float | None]] = [[None] * request["count"] for _ in SERIES]
     try:
         path = buffer.lookup_transforms(
-            asked["target"], asked["source"], np.array(stamps, dtype=np.int64), missing="nan"
+            request["target"], request["source"], np.array(stamps, dtype=np.int64), missing="nan"
         )
     except TransformException:
         pass
@@ -201,14 +201,14 @@ def encode_series(buffer: Buffer, epoch: Stamp, asked: PageRequest) -> str:
     return json.dumps(answer("series", told | dict(zip(SERIES, columns, strict=True))))
 
 
-def encode_trails(buffer: Buffer, epoch: Stamp, asked: PageRequest) -> str:
-    """Return the message with frames' positions at evenly spread times; null for failed lookups."""
-    stamps = np.array(_stamps(epoch, asked), dtype=np.int64)
+def encode_trails(buffer: Buffer, epoch: Stamp, request: PageRequest) -> str:
+    """Return the message with frames' positions at the requested times; null for failed lookups."""
+    stamps = np.array(_stamps(epoch, request), dtype=np.int64)
     places: dict[str, list[list[float] | None]] = {}
-    for frame in asked["frames"]:
-        places[frame] = [None] * asked["count"]
+    for frame in request["frames"]:
+        places[frame] = [None] * request["count"]
         try:
-            path = buffer.lookup_transforms(asked["fixed"], frame, stamps, missing="nan")
+            path = buffer.lookup_transforms(request["fixed"], frame, stamps, missing="nan")
         except TransformException:
             continue
         # A very large number overflows when it is rounded, and has no decimals anyway.
@@ -218,18 +218,18 @@ def encode_trails(buffer: Buffer, epoch: Stamp, asked: PageRequest) -> str:
         rows = rounded.tolist()
         for at in np.flatnonzero(known).tolist():
             places[frame][at] = rows[at]
-    told = {**{name: asked[name] for name in ("fixed", "from", "to")}, "places": places}
+    told = {**{name: request[name] for name in ("fixed", "from", "to")}, "places": places}
     return json.dumps(answer("trails", told))
 
 
 _TRAIL_DIGITS = 5
 
 
-def _stamps(epoch: Stamp, asked: PageRequest) -> list[Stamp]:
-    """Return "count" evenly spread times from "from" to "to", which are fields of a request."""
-    first, last = stamp_at(epoch, asked["from"]), stamp_at(epoch, asked["to"])
-    steps = asked["count"] - 1
-    return [first + (last - first) * step // steps for step in range(asked["count"])]
+def _stamps(epoch: Stamp, request: PageRequest) -> list[Stamp]:
+    """Return the evenly spread times that a request asks for, as `from`, `to` and `count`."""
+    first, last = stamp_at(epoch, request["from"]), stamp_at(epoch, request["to"])
+    steps = request["count"] - 1
+    return [first + (last - first) * step // steps for step in range(request["count"])]
 
 
 SERIES = ("x", "y", "z", "roll", "pitch", "yaw")

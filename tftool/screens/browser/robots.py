@@ -34,7 +34,7 @@ class ShownRobot:
         folders: Folders of the robot's meshes.
         mover: Node of this process that moves the joints; None without such a node.
         prefix: Text before the link's name in the name of each frame of the robot.
-        rest: Initial joint positions if the page moves the joints without a node; None if a node
+        rest: Joint positions at first, if the page itself moves the joints; None if a node
             publishes joint positions.
     """
 
@@ -45,7 +45,7 @@ class ShownRobot:
     rest: Mapping[str, float] | None = None
 
     def place(self, frames: Collection[str]) -> bool:
-        """Guess `prefix` from the frame names `frames`; return whether the prefix has changed."""
+        """Guess `prefix` from the names of all frames; return whether `prefix` has changed."""
         prefix = prefix_of(self.robot, frames)
         changed = prefix != self.prefix
         self.prefix = prefix

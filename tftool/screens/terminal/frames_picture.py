@@ -58,7 +58,7 @@ def in_snapshot(snapshot: Snapshot) -> Lookup:
 
 
 def moving(snapshot: Snapshot, fixed: str) -> list[str]:
-    """Return the frames that may move relative to `fixed`, one for each rigid group."""
+    """Return frames that may move relative to `fixed`; one of each group that moves together."""
     moves: dict[str, bool] = {}
     for info in snapshot.frames:
         chain: list[FrameInfo] = []
@@ -182,7 +182,7 @@ class FrameTrails:
     def __init__(self, buffer: Buffer) -> None:
         self._buffer = buffer
         self.fixed = ""
-        self._ways: dict[str, FrameWay] = {}
+        self._paths: dict[str, FramePath] = {}
         self._next: Stamp = 0
         self._shown = ColoredLines()
 
@@ -195,31 +195,31 @@ class FrameTrails:
             now: Time of the newest position to add, nanoseconds.
         """
         if fixed != self.fixed or now < self._next - 4 * PERIOD:
-            self.fixed, self._ways, self._next = fixed, {}, 0
+            self.fixed, self._paths, self._next = fixed, {}, 0
         if now >= self._next:
             self._next = now + 2 * PERIOD
             for frame in islice(frames, MOST_FRAMES):
-                known = self._ways.get(frame, NOWHERE)
+                known = self._paths.get(frame, NOWHERE)
                 start = int(known.stamps[-1]) if len(known.stamps) else 0
-                new = self._way(frame, fixed, max(start, now - REACH), now)
-                self._ways[frame] = known.followed_by(new)
-            self._ways = {name: way.after(now - KEPT) for name, way in self._ways.items()}
-            self._shown = _trails(self._ways, now)
+                new = self._path(frame, fixed, max(start, now - REACH), now)
+                self._paths[frame] = known.followed_by(new)
+            self._paths = {name: way.after(now - KEPT) for name, way in self._paths.items()}
+            self._shown = _trails(self._paths, now)
         return self._shown
 
     def until(self, fixed: str, frames: Iterable[str], at: Stamp) -> ColoredLines:
         """Return the trails up to the past time `at`, from the buffer and from stored positions."""
         ways = {}
         for frame in islice(frames, MOST_FRAMES):
-            way = self._way(frame, fixed, at - REACH, at)
+            way = self._path(frame, fixed, at - REACH, at)
             if fixed == self.fixed:
                 # Positions that the buffer has pruned since.
                 first = int(way.stamps[0]) if len(way.stamps) else at
-                way = self._ways.get(frame, NOWHERE).before(first).followed_by(way)
+                way = self._paths.get(frame, NOWHERE).before(first).followed_by(way)
             ways[frame] = way
         return _trails(ways, at)
 
-    def _way(self, frame: str, fixed: str, start: Stamp, end: Stamp) -> "FrameWay":
+    def _path(self, frame: str, fixed: str, start: Stamp, end: Stamp) -> "FramePath":
         """Look up a frame's positions in `fixed` after `start`, every `PERIOD` until `end`."""
         stamps = np.arange(start // PERIOD + 1, end // PERIOD + 1, dtype=np.int64) * PERIOD
         stamps = stamps[stamps > 0]
@@ -230,38 +230,38 @@ class FrameTrails:
         except TransformException:
             return NOWHERE
         holds = path.valid & (np.abs(path.translations).sum(axis=1) < FARTHEST)
-        return FrameWay(stamps[holds], path.translations[holds])
+        return FramePath(stamps[holds], path.translations[holds])
 
 
-class FrameWay(NamedTuple):
+class FramePath(NamedTuple):
     """Path of a frame: stamps, shape (n,), and positions in metres, shape (n, 3)."""
 
     stamps: npt.NDArray[np.int64]
     places: npt.NDArray[np.float64]
 
-    def followed_by(self, other: "FrameWay") -> "FrameWay":
+    def followed_by(self, other: "FramePath") -> "FramePath":
         """Return this path with the path `other` appended."""
         stamps, places = zip(self, other, strict=True)
-        return FrameWay(np.concatenate(stamps), np.concatenate(places))
+        return FramePath(np.concatenate(stamps), np.concatenate(places))
 
-    def after(self, stamp: Stamp) -> "FrameWay":
+    def after(self, stamp: Stamp) -> "FramePath":
         """Return the points of the path at and after a time."""
         first = int(np.searchsorted(self.stamps, stamp))
-        return FrameWay(self.stamps[first:], self.places[first:])
+        return FramePath(self.stamps[first:], self.places[first:])
 
-    def before(self, stamp: Stamp) -> "FrameWay":
+    def before(self, stamp: Stamp) -> "FramePath":
         """Return the points of the path before a time."""
         end = int(np.searchsorted(self.stamps, stamp))
-        return FrameWay(self.stamps[:end], self.places[:end])
+        return FramePath(self.stamps[:end], self.places[:end])
 
 
-NOWHERE = FrameWay(np.zeros(0, np.int64), np.zeros((0, 3)))
+NOWHERE = FramePath(np.zeros(0, np.int64), np.zeros((0, 3)))
 
 
-def _trails(ways: Mapping[str, FrameWay], now: Stamp) -> ColoredLines:
+def _trails(paths: Mapping[str, FramePath], now: Stamp) -> ColoredLines:
     """Return the paths as coloured line segments, oldest first; older segments are fainter."""
     stamps, ends, colors = [NOWHERE.stamps], [np.zeros((0, 2, 3))], [NOWHERE.stamps]
-    for name, (times, places) in ways.items():
+    for name, (times, places) in paths.items():
         moves = np.abs(np.diff(places, axis=0)).sum(axis=1) > STILL
         (joined,) = np.nonzero(moves & (np.diff(times) <= GAP))
         stamps.append(times[joined + 1])

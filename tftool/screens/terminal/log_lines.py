@@ -90,7 +90,7 @@ class Journal:
             look: Colours and characters to use.
             back: Number of newest messages to omit, after scrolling back.
         """
-        told = self._told(until)
+        told = self._logged(until)
         told = told[: max(len(told) - back, 1)]
         if not told:
             return [Text(EMPTY, look.ink(look.palette.dim))]
@@ -107,7 +107,7 @@ class Journal:
     ) -> list[Text]:
         """Return the newest message up to a time as wrapped lines, with a hint at the log key.
 
-        If there is room, the message before the newest message is above.
+        If there is room, the previous message is shown above.
 
         Args:
             until: Time that the screen shows.
@@ -116,7 +116,7 @@ class Journal:
             look: Colours and characters to use.
             most: Largest number of lines; further text is omitted.
         """
-        told = self._told(until)
+        told = self._logged(until)
         dim = look.ink(look.palette.dim)
         more = Text.assemble(("  L", look.ink(look.palette.accent, bold=True)), (" log ", dim))
         room = max(0, width - more.cell_len)
@@ -136,7 +136,7 @@ class Journal:
             line.truncate(width)
         return shown
 
-    def _told(self, until: Stamp) -> list[_Entry]:
+    def _logged(self, until: Stamp) -> list[_Entry]:
         """Return the messages logged up to a time, sorted by the time of the last repetition."""
         told = [entry for entry in self._entries if entry.times(until)]
         return sorted(told, key=lambda entry: entry.last(until))

@@ -185,9 +185,9 @@ def pair(moment: SceneMoment, width: int, height: int, look: Look) -> list[Text]
 
 
 def stopped_for(moment: SceneMoment) -> float:
-    """Return the seconds since the last sample of a stopped edge between the shown frames.
+    """Return how long ago, in seconds, a transform between the shown frames stopped arriving.
 
-    Returns the maximum if several edges have stopped, and 0 if no edge has stopped.
+    If several transforms have stopped, return the longest time; if none has stopped, 0.
     """
     frames = {info.frame: info for info in moment.snapshot.frames}
     chains: list[set[str]] = []
@@ -310,7 +310,7 @@ def scenarios(
 
 
 def description_lines(offered: Sequence[tuple[str, str]], width: int) -> int:
-    """Return the number of lines below the list of scenarios for the longest description's text.
+    """Return how many lines the longest description needs below the list of scenarios.
 
     Returns 0 if every description fits into its line of the list.
 
@@ -431,7 +431,7 @@ LEAVING = """\
 """
 
 
-def told(*, drives: bool, chooses: bool) -> str:
+def key_help(*, drives: bool, chooses: bool) -> str:
     """Return the help text with one line for each key that works.
 
     Args:

@@ -21,7 +21,7 @@ ROOMY = 0.4
 class Camera:
     """Camera above the xy plane; the scale stays steady from picture to picture.
 
-    Until the user zooms or pans, the view is enlarged when the picture grows, but is reduced only
+    Until the user zooms or pans, the view grows at once with the picture. The view shrinks only
     when most of the view is empty.
     """
 

@@ -121,7 +121,7 @@ class PlayerScreen(TreeWatch, inherit_bindings=False):
         self._topics = topics
         self._moments = moments
 
-    def keys_told(self) -> str:
+    def key_help(self) -> str:
         """Return the help for the keys of this screen."""
         return KEYS
 

@@ -126,7 +126,7 @@ class RobotApp(PanelApp):
 
     # Building
 
-    def keys_told(self) -> str:
+    def key_help(self) -> str:
         """Return the help for the keys of this screen."""
         return KEYS
 
@@ -289,9 +289,9 @@ class RobotApp(PanelApp):
         lines = [heading, Text(place), Text(turn), self._joint(width)]
         return lines + self._others(width, height - len(lines))
 
-    def _others(self, width: int, room: int) -> list[Text]:
-        """Return at most `room` lines: a heading, and the links' positions in the root link."""
-        if room < WITH_TABLE:
+    def _others(self, width: int, height: int) -> list[Text]:
+        """Return at most `height` lines: a heading, and the links' positions in the root link."""
+        if height < WITH_TABLE:
             return []
         look, root = self.look, self.prefix + self.sliders.robot.root
         name_width = max(8, width - 24)
@@ -307,12 +307,12 @@ class RobotApp(PanelApp):
             color = look.palette.accent if link == self.link else look.of_name(self.prefix + link)
             chosen = len(lines) if link == self.link else chosen
             lines.append(Text.assemble((name, look.ink(color)), numbers))
-        head = [Text()] * (room > WITH_TABLE)
+        head = [Text()] * (height > WITH_TABLE)
         head.append(Text(f"{'':{name_width}}       x       y       z", "dim"))
-        room -= len(head)
-        if len(lines) > room:
-            first = max(0, chosen - room + 2)
-            shown = lines[first : first + room - 1]
+        height -= len(head)
+        if len(lines) > height:
+            first = max(0, chosen - height + 2)
+            shown = lines[first : first + height - 1]
             lines = [*shown, Text(f"{len(lines) - len(shown)} more", "dim")]
         return head + lines
 
@@ -387,21 +387,21 @@ class RobotApp(PanelApp):
         self.sliders.entry = self.sliders.refusal = ""
         self.redraw()
 
-    def action_everything(self, what: str) -> None:
-        """Set all joints to zero, to the middle of their limits, or to random positions."""
-        self._put(what, all_of_them=True)
+    def action_everything(self, position: str) -> None:
+        """Move all joints: "zero", "centre" (of the limits) or "scatter" (random positions)."""
+        self._put(position, all_joints=True)
 
-    def action_one(self, what: str) -> None:
-        """Set the chosen joint to zero, to the middle of its limits, or to a random position."""
-        self._put(what, all_of_them=False)
+    def action_one(self, position: str) -> None:
+        """Move the chosen joint: "zero", "centre" (of its limits) or "scatter" (at random)."""
+        self._put(position, all_joints=False)
 
-    def _put(self, what: str, *, all_of_them: bool) -> None:
+    def _put(self, position: str, *, all_joints: bool) -> None:
         moves: dict[str, Callable[..., None]] = {
             "zero": self.sliders.zero,
             "centre": self.sliders.centre,
             "scatter": self.sliders.scatter,
         }
-        moves[what](all_of_them=all_of_them)
+        moves[position](all_joints=all_joints)
         self.redraw()
 
     def action_picture(self) -> None:
@@ -421,11 +421,11 @@ class RobotApp(PanelApp):
         self.redraw()
 
 
-def _bar(one: Slider, width: int, look: Look) -> str:
+def _bar(slider: Slider, width: int, look: Look) -> str:
     """Draw a joint's slider as text of `width` cells."""
     left, right, track = "[]-" if look.ascii_only else "├┤─"
     room = max(3, width - 2)
-    share = one.share
+    share = slider.share
     if share is None:
         return left + track * room + right
     if look.ascii_only:

@@ -275,7 +275,7 @@ class Scene:
         return Pair(target, source, found)
 
     def _as_of(self, info: FrameInfo, at: Stamp) -> FrameInfo:
-        """Return a frame's facts as at the past time `at`, without the samples after `at`."""
+        """Return a frame's facts at the past time `at`; later samples are ignored."""
         if info.parent is None or info.is_static or info.newest <= at:
             return info
         stamps = self.world.buffer.samples(info.frame).stamps
@@ -293,7 +293,7 @@ class Scene:
         )
 
     def _ages(self, snapshot: Snapshot, now: Stamp, at: Stamp | None) -> dict[str, float]:
-        """Return the age of each frame in seconds, as in rviz: the time since a new stamp arrived.
+        """Return the age of each frame in seconds, as in rviz: the time since its stamp changed.
 
         For a past time `at`, the age is the time since the newest stamp, because times of arrival
         are not stored.

@@ -33,13 +33,13 @@ class Setting:
     scenarios: Callable[[], Sequence[tuple[str, str]]] | None = None
 
 
-def setting_from(environment: Mapping[str, str], encoding: str, wanted: Setting) -> Setting:
-    """Return the options `wanted`, without those that the terminal cannot show.
+def setting_from(environment: Mapping[str, str], encoding: str, requested: Setting) -> Setting:
+    """Return the requested options, without those that the terminal cannot show.
 
     Args:
         environment: Environment variables; TERM, NO_COLOR, COLORFGBG and LC_ALL are used.
         encoding: Encoding of the terminal's text.
-        wanted: Wanted options.
+        requested: Options that the user requested.
     """
     terminal = environment.get("TERM", "")
     ascii_only = (
@@ -49,10 +49,10 @@ def setting_from(environment: Mapping[str, str], encoding: str, wanted: Setting)
         or terminal in {"linux", "vt100", "vt220", "dumb"}
     )
     return replace(
-        wanted,
-        ascii_only=wanted.ascii_only or ascii_only,
-        colors=wanted.colors and not environment.get("NO_COLOR"),
-        light=wanted.light or theme.prefers_light(environment),
+        requested,
+        ascii_only=requested.ascii_only or ascii_only,
+        colors=requested.colors and not environment.get("NO_COLOR"),
+        light=requested.light or theme.prefers_light(environment),
     )
 
 

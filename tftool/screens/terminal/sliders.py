@@ -160,27 +160,27 @@ class Sliders:
             return
         self._move(joint, position)
 
-    def zero(self, *, all_of_them: bool = True) -> None:
+    def zero(self, *, all_joints: bool = True) -> None:
         """Set all joints, or the chosen joint, to zero or to the limit nearest to zero."""
-        for joint in self._meant(all_of_them):
+        for joint in self._meant(all_joints):
             lower, upper = joint.limits or (0.0, 0.0)
             self._move(joint, min(upper, max(lower, 0.0)))
 
-    def centre(self, *, all_of_them: bool = True) -> None:
+    def centre(self, *, all_joints: bool = True) -> None:
         """Set all joints, or the chosen joint, to the middle of their limits."""
-        for joint in self._meant(all_of_them):
+        for joint in self._meant(all_joints):
             lower, upper = slide_range(joint)
             self._move(joint, (lower + upper) / 2.0)
 
-    def scatter(self, *, all_of_them: bool = True) -> None:
+    def scatter(self, *, all_joints: bool = True) -> None:
         """Set all joints, or the chosen joint, to random positions within their limits."""
-        for joint in self._meant(all_of_them):
+        for joint in self._meant(all_joints):
             lower, upper = slide_range(joint)
             self._move(joint, self._random.uniform(lower, max(lower, upper)))
 
-    def _meant(self, all_of_them: bool) -> list[RobotJoint]:
+    def _meant(self, all_joints: bool) -> list[RobotJoint]:
         self.entry = self.refusal = ""
-        if all_of_them:
+        if all_joints:
             return [joint for joint in self._joints if not self._follows(joint)]
         return [] if self.chosen is None else [self.chosen]
 
@@ -205,8 +205,8 @@ def slide_range(joint: RobotJoint) -> tuple[float, float]:
 def tip_of(robot: Robot) -> str:
     """Return the link farthest from the root by number of joints, usually a hand.
 
-    Of several such links, the first is returned. Links below a floating joint are ignored, because
-    their frames are not published.
+    If several links are equally far, return the first. Links below a floating joint are ignored,
+    because their frames are not published.
     """
     depth = {robot.root: 0}
     waiting = [robot.root]

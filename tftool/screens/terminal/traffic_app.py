@@ -65,7 +65,7 @@ class TrafficWatch(PanelApp):
         self._order = "chain" if chain is not None else "name"
         self._first = 0
 
-    def keys_told(self) -> str:
+    def key_help(self) -> str:
         """Return the help for the keys of this screen."""
         return KEYS
 

@@ -45,12 +45,12 @@ class TreeWindow:
     Attributes:
         first: Index of the row at the top.
         order: Order of the rows.
-        wanted: Filter: text that the names of the shown frames contain; "" for all frames.
+        filter: Text that the names of the shown frames contain; "" for all frames.
     """
 
     first: int = 0
     order: TreeOrder = TreeOrder.tree
-    wanted: str = ""
+    filter: str = ""
 
     def lines(
         self,
@@ -71,7 +71,7 @@ class TreeWindow:
             ascii_only=ascii_only,
             marks=marks,
             order=self.order,
-            wanted=self.wanted,
+            wanted=self.filter,
             history=history,
         )
         heading = list(found.heading)[: max(0, height - 1)]
@@ -159,7 +159,7 @@ class TreeWatch(PanelApp, inherit_bindings=False):
 
     # Building
 
-    def keys_told(self) -> str:
+    def key_help(self) -> str:
         """Return the help for the keys of this screen."""
         return KEYS
 
@@ -271,7 +271,7 @@ class TreeWatch(PanelApp, inherit_bindings=False):
     def _footer(self, width: int) -> Text:
         look = self.look
         if self._types:
-            words = f" filter: {plain(self.window.wanted)}"
+            words = f" filter: {plain(self.window.filter)}"
             told = fitted(words, max(1, width - 1), more=look.more)
             return Text(told, style="bold").append("_", style="blink")
         if self.news:
@@ -281,7 +281,7 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         end = [Hint("?", "keys"), Hint("q", "quit")]
         if self._is_alone:
             return footer([Hint("p", "tree"), *orbit, *end], width, look)
-        wanted = self.window.wanted
+        wanted = self.window.filter
         hints = [
             Hint("s", f"sort: {self.window.order.value}"),
             Hint("/", f"filter: {plain(wanted)}" if wanted else "filter"),
@@ -318,7 +318,7 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         elif event.key == "slash":
             self._types = True
         elif event.key == "escape":
-            self.window.wanted = ""
+            self.window.filter = ""
             self.panel("keys").display = False
         else:
             self._scroll(event.key)
@@ -335,11 +335,11 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         if event.key in ("enter", "escape"):
             self._types = False
             if event.key == "escape":
-                self.window.wanted = ""
+                self.window.filter = ""
         elif event.key == "backspace":
-            self.window.wanted = self.window.wanted[:-1]
+            self.window.filter = self.window.filter[:-1]
         elif event.character is not None and event.character.isprintable():
-            self.window.wanted += event.character
+            self.window.filter += event.character
         self.window.first = 0
 
     def _scroll(self, key: str) -> None:

@@ -218,9 +218,9 @@ class TurtleApp(PanelApp):
         self.scene.look()
         self._draw()
 
-    def keys_told(self) -> str:
+    def key_help(self) -> str:
         """Return the help for the keys that work on this screen."""
-        return keys.told(
+        return keys.key_help(
             drives=self.press_key is not None, chooses=self.setting.scenarios is not None
         )
 

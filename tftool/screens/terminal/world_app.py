@@ -337,7 +337,7 @@ class PanelApp(WorldApp):
         """Move the key help to the middle of the screen."""
         self._place_keys(event.size)
 
-    def keys_told(self) -> str:
+    def key_help(self) -> str:
         """Return the text of the key help, with one line for each key."""
         raise NotImplementedError
 
@@ -345,7 +345,7 @@ class PanelApp(WorldApp):
         panel = self.panel("keys")
         if not panel.display:
             return
-        lines = self.keys_told().splitlines()
+        lines = self.key_help().splitlines()
         width, height = size
         if len(lines) > height - 2:
             lines = [line for line in lines if line]
