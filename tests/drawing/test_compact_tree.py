@@ -91,7 +91,7 @@ def test_a_column_is_measured_once_and_not_for_every_row():
             return super().__iter__()
 
     cells = Counted(("cell", "") for _ in range(50))
-    columns = fit([TableColumn("head", cells)], 80, wanted=10, longest=10)
+    columns = fit([TableColumn("head", cells)], 80, reserved=10, longest=10)
     before = looks
     for place in range(50):
         columns.row(place, Text("name"))

@@ -13,7 +13,7 @@ ROWS = [
 
 
 def told(width):
-    return table(HEADS, ROWS, width, goes=("kind", "from"))
+    return table(HEADS, ROWS, width, optional=("kind", "from"))
 
 
 def test_numbers_stand_under_each_other_at_their_right_ends():
@@ -63,7 +63,7 @@ def test_a_number_stands_whole_or_not_at_all(width):
         ("edge", "delay", "least … most"),
         [("base_link in odom", "0.001 ms", span)],
         width,
-        goes=("least … most", "delay"),
+        optional=("least … most", "delay"),
         right=("delay", "least … most"),
     )
 

@@ -180,18 +180,23 @@ class Canvas:
         return np.where(self._inside, packed(getattr(theme.on_field(field.color), role)), beside)
 
     def _grow(
-        self, kept: "_KeptDrawing", drawn: Drawn, place: object, field: TurtleField | None = None
+        self,
+        cache: "_KeptDrawing",
+        drawn: Drawn,
+        position: object,
+        field: TurtleField | None = None,
     ) -> None:
-        """Draw the new strokes of the drawing `drawn` into the cache `kept`.
+        """Draw the new strokes of `drawn` into a cache.
 
-        All strokes are drawn again if the drawing was moved, replaced or shortened.
+        All strokes are drawn again if the drawing has another `position`, or was replaced or
+        shortened.
         """
-        key, total = (place, drawn.edition), drawn.forgotten + len(drawn.strokes)
-        if kept.key != key or total < kept.done:
-            kept.key, kept.done = key, 0
-            kept.dots = Dots(self.columns, self.rows)
-        new = drawn.strokes[max(0, kept.done - drawn.forgotten) :]
-        kept.done = total
+        key, total = (position, drawn.edition), drawn.forgotten + len(drawn.strokes)
+        if cache.key != key or total < cache.done:
+            cache.key, cache.done = key, 0
+            cache.dots = Dots(self.columns, self.rows)
+        new = drawn.strokes[max(0, cache.done - drawn.forgotten) :]
+        cache.done = total
         if not new:
             return
         lines = np.array([stroke[:4] for stroke in new])
@@ -203,7 +208,7 @@ class Canvas:
         wide = np.array([max(1, round(per_pixel * stroke[5])) for stroke in new])
         for one in np.unique(wide).tolist():
             some = wide == one
-            kept.dots.draw(self._ends(lines[some]), colors[some], one)
+            cache.dots.draw(self._ends(lines[some]), colors[some], one)
 
     def _faint(self, colors: Numbers, field: TurtleField | None) -> Numbers:
         """Return paler versions of the packed colours of cells, for the trails."""
@@ -304,18 +309,18 @@ class Canvas:
             sheet.write(placed.column, placed.row, placed.label.text,
                         self._letter_inks(placed, named[placed.label.name]))  # fmt: skip
 
-    def _letter_inks(self, placed: PlacedLabel, one: PlaneFrame) -> list[int]:
+    def _letter_inks(self, placed: PlacedLabel, frame: PlaneFrame) -> list[int]:
         """Return a colour for each letter of a name, readable on the background of its cell."""
         inks = []
         for on_field in (False, True):
-            ink = self._ink_of(one, on_field=on_field)
-            brightens = on_field and not theme.is_stale(one.age)
+            ink = self._ink_of(frame, on_field=on_field)
+            brightens = on_field and not theme.is_stale(frame.age)
             inks.append(packed(theme.blend(ink, theme.WHITE, 0.4) if brightens else ink))
         return [inks[on] for on in self._inside[placed.row, placed.column :].tolist()]
 
     def _sprite(
         self,
-        one: PlaneFrame,
+        frame: PlaneFrame,
         place: Point,
         color: Color,
         per_metre: float,
@@ -323,10 +328,10 @@ class Canvas:
         taken: set[tuple[int, int]],
     ) -> Iterable[tuple[int, int, Cell]]:
         column, row = math.floor(place[0]), math.floor(place[1])
-        if not one.is_turtle:
+        if not frame.is_turtle:
             return [(column, row, Cell("o" if self._ascii else "●", color, None, True))]
         if bodies:
-            return sprites.body(*place, one.theta, color, per_metre)
+            return sprites.body(*place, frame.theta, color, per_metre)
         if (row, column) in taken:
             # Another turtle is in this cell, so draw a small arrow beside that turtle.
             free = next(
@@ -338,13 +343,13 @@ class Canvas:
                 column,
             )
             arrows = sprites.ASCII_ARROWS if self._ascii else sprites.ARROWS
-            return [(free, row, Cell(arrows[sprites.octant(one.theta)], color, None, True))]
-        return sprites.badge(*place, one.theta, color, per_metre, blocks=not self._ascii)
+            return [(free, row, Cell(arrows[sprites.octant(frame.theta)], color, None, True))]
+        return sprites.badge(*place, frame.theta, color, per_metre, blocks=not self._ascii)
 
-    def _ink_of(self, one: PlaneFrame, *, on_field: bool) -> Color:
+    def _ink_of(self, frame: PlaneFrame, *, on_field: bool) -> Color:
         """Return a colour for a frame that is readable on its background; amber or red if stale."""
         palette = theme.DARK if on_field else self._palette
-        return theme.of_age(theme.readable(theme.of_name(one.name), palette), one.age, palette)
+        return theme.of_age(theme.readable(theme.of_name(frame.name), palette), frame.age, palette)
 
     def _on_field(self, place: Point) -> bool:
         column, row = math.floor(place[0]), math.floor(place[1])

@@ -76,7 +76,7 @@ def packed(color: Color | None) -> int:
 
 
 def blended(colors: Numbers, end: Color, share: float | Points) -> Numbers:
-    """Mix packed colours with `end`; `share` is the fraction of `end`, one or one per colour."""
+    """Mix colours, packed as numbers, with `end`; `share` is the fraction of `end`, 0 to 1."""
     parts = np.stack([colors >> 16, colors >> 8 & 255, colors & 255], -1)
     mixed = np.rint(parts + np.asarray(share)[..., None] * (np.array(end) - parts)).astype(np.int64)
     return np.where(colors < 0, NONE, mixed @ np.array([1 << 16, 1 << 8, 1]))
@@ -214,10 +214,10 @@ def runs(cells: Iterable[tuple[str, str]]) -> list[tuple[str, str]]:
 def merged(layers: Sequence[Dots]) -> Dots:
     """Merge several curves into one picture.
 
-    A cell with several curves has the colour of one curve. Sloping curves take precedence over
-    horizontal curves, then curves with few unshared cells over curves with many. This order is the
-    same in all cells, so the colour does not alternate. Only where several horizontal curves
-    coincide, dashes in alternating colours show that there are several.
+    A cell with several curves has the colour of one curve: of a sloping curve if there is one; of
+    several, of the curve with the fewest cells of its own. This order is the same in all cells, so
+    the colour does not alternate. Only where several horizontal curves coincide, dashes in
+    alternating colours show all of them.
 
     Args:
         layers: The dots of each curve, all of one size; at least one.

@@ -22,13 +22,13 @@ HEAD: Final = ("link", "change", "mm", "degrees", "")
 
 
 def lines(found: Differences, width: int | None = None, *, everything: bool = False) -> str:
-    """Return differences as text: a line for each edge that differs between A and B, and a summary.
+    """Return differences as text: a line for each frame whose transform differs, and a summary.
 
     Args:
         found: The differences.
         width: Maximum length of a line in cells; None for no limit. Text that does not fit is
-            written below the line of its edge.
-        everything: Whether to include the edges that do not differ.
+            written below the line of its frame.
+        everything: Whether to include the frames whose transforms are equal in A and B.
     """
     told = found.links if everything else found.changed
     text = [f"A {visible(found.first)}", f"B {visible(found.second)}"]
@@ -44,7 +44,7 @@ def _table(rows: list[tuple[str, ...]], width: int | None) -> list[str]:
     if width is None or max(map(cell_len, whole)) <= width:
         return whole
     heading, *shown = table(
-        HEAD[:-1], [row[:-1] for row in rows], width, goes=("change",), right=numbers
+        HEAD[:-1], [row[:-1] for row in rows], width, optional=("change",), right=numbers
     )
     below = [wrapped(row[-1], width, "      ") if row[-1] else [] for row in rows]
     return [
@@ -54,7 +54,7 @@ def _table(rows: list[tuple[str, ...]], width: int | None) -> list[str]:
 
 
 def summary(found: Differences) -> str:
-    """Return a sentence with the number of edges that differ between A and B, and the tolerance."""
+    """Return a sentence with the number of transforms that differ between A and B."""
     count, total = len(found.changed), len(found.links)
     limit = found.tolerance
     measures = [f"{limit.millimetres:g} mm", f"{limit.degrees:g}°"]

@@ -125,10 +125,10 @@ class Guides:
         """
         if not branch.depth:
             return ""
-        own = (self.last if branch.turns[-1] else self.child) + self.gap
+        own = (self.last if branch.are_last[-1] else self.child) + self.gap
         if branch.depth > DEEPEST or (most is not None and self.width(branch.depth) > most):
             return f"{branch.depth}{more}{own}"
-        return "".join(self.blank if last else self.past for last in branch.turns[:-1]) + own
+        return "".join(self.blank if last else self.past for last in branch.are_last[:-1]) + own
 
     def width(self, depth: int) -> int:
         """Return the width in cells of the tree lines before the name of a frame at a depth."""
@@ -158,14 +158,14 @@ class Branch:
     Attributes:
         info: The frame.
         depth: Number of levels below the root.
-        turns: Whether each frame on the path from the root's child to this frame is the last child
-            of its parent; for a deep frame, only the last `DEEPEST` values.
+        are_last: Whether each frame on the path from the root's child to this frame is the last
+            child of its parent; for a deep frame, only the last `DEEPEST` values.
         closes_loop: Whether the edge to this frame's parent closes a loop, and so is not drawn.
     """
 
     info: FrameInfo
     depth: int
-    turns: tuple[bool, ...]
+    are_last: tuple[bool, ...]
     closes_loop: bool
 
 
@@ -175,15 +175,15 @@ def branches(forest: Forest) -> Iterator[Branch]:
     waiting = [(root, 0, ()) for root in reversed(forest.roots)]
     loops = frozenset(forest.loops)
     while waiting:
-        frame, depth, turns = waiting.pop()
-        yield Branch(forest.info[frame], depth, turns, frame in loops)
+        frame, depth, are_last = waiting.pop()
+        yield Branch(forest.info[frame], depth, are_last, frame in loops)
         for place, child in enumerate(reversed(forest.children[frame])):
-            waiting.append((child, depth + 1, (*turns, place == 0)[-DEEPEST:]))
+            waiting.append((child, depth + 1, (*are_last, place == 0)[-DEEPEST:]))
 
 
 @dataclass(frozen=True, slots=True)
 class Facts:
-    """Broadcaster, rate, and stamps of an edge as text; numbers have no trailing zeros."""
+    """Broadcaster, rate, and stamps of a frame as text; numbers have no trailing zeros."""
 
     broadcaster: str
     rate: str

@@ -27,7 +27,7 @@ _WORDS = {
 
 
 def render(found: Explanation) -> RenderableType:
-    """Return an explanation for a terminal: lookup, tf2's error, edges, cause, remedies."""
+    """Return an explanation for a terminal: lookup, tf2's error, transforms, cause, remedies."""
     facts = Table.grid(padding=(0, 2), pad_edge=False)
     facts.add_column(no_wrap=True)
     facts.add_column(overflow="fold")
@@ -116,9 +116,9 @@ def _later(found: Explanation) -> str:
 
 
 class _Links:
-    """Table with a row for each edge of a lookup's path.
+    """Table with a row for each transform between a frame and its parent on a lookup's path.
 
-    On a narrow terminal, the outcome at an edge is written below the row. If the terminal is very
+    On a narrow terminal, the outcome of a row is written below the row. If the terminal is very
     narrow, the other columns are not aligned and have no heading.
     """
 

@@ -97,7 +97,7 @@ def plot(
 
     Args:
         frames: Opened frames, a recording, a buffer or a robot; or one or several series of poses.
-            Lookups are at the stamps of the edge with most samples between `source` and `target`.
+            Lookups are at the stamps of the most frequent transform between `source` and `target`.
         target: Frame in which the poses are expressed; None with series of poses.
         source: Frame whose poses are drawn; None with series of poses.
         ax: Axes for one panel; None for a new figure with all panels.
@@ -244,7 +244,10 @@ def _figure_of_panels(
     make: Any,
     named: bool = True,
 ) -> "Figure":
-    """Return a figure with panels below each other; if `named`, each panel has a legend."""
+    """Return a figure, created by `make`, with panels below each other.
+
+    If `named`, each panel has a legend.
+    """
     figure = _empty_figure(1.0 + 1.7 * len(drawn), dark, make)
     with _needed("matplotlib").rc_context(_settings(dark)):
         figure.suptitle(_plain(title), fontsize=11)

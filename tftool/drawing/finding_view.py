@@ -149,7 +149,7 @@ def areas(diagnosis: Diagnosis) -> str:
 
 
 def _clean(diagnosis: Diagnosis) -> Table:
-    """Return a table of the areas without a finding: tick, name of the area, and a measurement."""
+    """Return a table of the areas (groups of checks) without a finding, with a measurement each."""
     model = diagnosis.model
     evidence = model.evidence
     heard = len({one.topic for one in model.heard if len(one.stamps)})
@@ -186,7 +186,7 @@ def _sources(model: Model) -> str:
 
 
 def _fine(diagnosis: Diagnosis) -> list[tuple[Area, str]]:
-    """Return the areas without a finding, each with a reservation such as "skipped", or ""."""
+    """Return the areas (groups of checks) without a finding, each with "" or a note on skipping."""
     wrong = {finding.area for finding in diagnosis.findings if finding.is_shown}
     skipped = {one.id: one.reason for one in diagnosis.skipped}
     told = []
@@ -291,7 +291,7 @@ def compared(rows: Sequence[tuple[str, Diagnosis | str]]) -> Table:
 
 
 def statistics(model: Model) -> Table:
-    """Return a table of rate, latency and largest gap of every edge and topic."""
+    """Return a table of rate, latency and largest gap of every frame and topic."""
     table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
     table.add_column("transform or topic", overflow="fold")
     for column in ("kind", "count", "rate", "latency p50", "p95", "worst gap"):
@@ -520,7 +520,7 @@ def as_markdown(diagnosis: Diagnosis) -> str:
 
 
 def _published(finding: Finding) -> str:
-    """Return the publishers of a finding's edges or topics, as the end of a sentence."""
+    """Return the publishers of a finding's frames or topics, as the end of a sentence."""
     by = f"published by {', '.join(finding.publishers)}"
     if not finding.topics or not finding.edges:
         return by

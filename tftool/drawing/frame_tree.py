@@ -58,7 +58,7 @@ def render(
     moving: Collection[str] | None = None,
     marks: Marks = NO_MARKS,
 ) -> Text:
-    """Return every tree as text with all facts of each edge, in lines of any width.
+    """Return every tree as text with all facts of each frame, in lines of any width.
 
     The arguments are those of `pieces`. To fit the trees to a terminal's width, use `compact`.
 
@@ -203,7 +203,7 @@ def facts(info: FrameInfo) -> tuple[str, ...]:
 
 
 class _Row(NamedTuple):
-    """Line of a tree: tree lines before the name, cells (name and facts of the edge), style."""
+    """Line of a tree: tree lines before the name, cells (name and facts of the frame), style."""
 
     lead: str
     cells: tuple[str, ...]
@@ -365,7 +365,7 @@ def compact(
     rows = _ordered(forest, order, wanted)[:most]
     if moving is not None:
         rows = [_of_robot(branch, moving) for branch in rows]
-    told = _told(snapshot, moving)
+    told = _caption(snapshot, moving)
     more = "~" if ascii_only else "…"
     drawing = _Drawing(rows, distinct(forest.info), width, ascii_only, order)
     longest = max(drawing.longest(drawing.guides), cell_len(told), LEAST_NAME)
@@ -376,7 +376,7 @@ def compact(
     columns = fit(
         [*facts, *history.columns(names, width - wished - used, ascii_only=ascii_only)],
         width,
-        wanted=wished,
+        reserved=wished,
         longest=longest,
         more=more,
     )
@@ -398,12 +398,12 @@ def compact(
 
 
 def _of_robot(branch: Branch, moving: Collection[str]) -> Branch:
-    """Mark the frame in a row of a robot description as static unless the frame is in `moving`."""
+    """Return a row of a robot description, marked as static unless its frame is in `moving`."""
     info = branch.info
     return replace(branch, info=info._replace(is_static=info.frame not in moving))
 
 
-def _told(snapshot: Snapshot, moving: Collection[str] | None) -> str:
+def _caption(snapshot: Snapshot, moving: Collection[str] | None) -> str:
     """Return the text above a tree: time of the snapshot, or number of a robot's moving joints."""
     if moving is not None:
         return f"{len(moving)} of {max(len(snapshot.frames) - 1, 0)} joints move"
@@ -480,8 +480,8 @@ def _link_columns(
     if moving is not None:
         kinds = cells(lambda info: "fixed" if info.is_static else "moving")
         return [
-            TableColumn("link", kinds, goes=2),
-            TableColumn("joint", cells(_broadcaster), caps=BROADCASTERS, goes=1),
+            TableColumn("link", kinds, drop_order=2),
+            TableColumn("joint", cells(_broadcaster), caps=BROADCASTERS, drop_order=1),
             last,
         ]
     ages = [
@@ -493,12 +493,12 @@ def _link_columns(
         for one, (text, style) in zip(rows, cells(_rate), strict=True)
     ]
     return [
-        TableColumn("broadcaster", cells(_broadcaster, "dim"), caps=BROADCASTERS, goes=4),
-        TableColumn("rate", rates, stands_right=True, goes=5),
-        TableColumn("stored", cells(_STORED), stands_right=True, goes=3),
-        TableColumn("oldest", cells(_OLDEST, "dim"), stands_right=True, goes=1),
-        TableColumn("newest", cells(_NEWEST, "dim"), stands_right=True, goes=2),
-        TableColumn("age", ages, stands_right=True, goes=6),
+        TableColumn("broadcaster", cells(_broadcaster, "dim"), caps=BROADCASTERS, drop_order=4),
+        TableColumn("rate", rates, align_right=True, drop_order=5),
+        TableColumn("stored", cells(_STORED), align_right=True, drop_order=3),
+        TableColumn("oldest", cells(_OLDEST, "dim"), align_right=True, drop_order=1),
+        TableColumn("newest", cells(_NEWEST, "dim"), align_right=True, drop_order=2),
+        TableColumn("age", ages, align_right=True, drop_order=6),
         last,
     ]
 
@@ -522,11 +522,11 @@ class _Drawing:
         self.guides = next((one for one in kinds if self.longest(one) <= self.most), kinds[-1])
         self.is_cut = False
 
-    def first(self, branch: Branch, room: int, *, marked: bool, more: str) -> Text:
-        """Return the tree lines and the name of one frame, cut to `room` cells."""
+    def first(self, branch: Branch, width: int, *, marked: bool, more: str) -> Text:
+        """Return the tree lines and the name of one frame, cut to `width` cells."""
         lead = "" if self.is_flat else self.guides.lead(branch, self.most, more)
         name = self.names[branch.info.frame]
-        shown = middle_cut(name, max(1, room - cell_len(lead)), more=more)
+        shown = middle_cut(name, max(1, width - cell_len(lead)), more=more)
         self.is_cut = self.is_cut or shown != name
         style = "yellow" if marked else _style(branch.info)
         return Text().append(lead, style="dim").append(shown, style=style)
@@ -548,7 +548,7 @@ def _has_stopped(info: FrameInfo) -> bool:
 
 
 def _is_late(info: FrameInfo) -> bool:
-    """Whether a moving frame has stopped, or the newest sample of the frame is stale."""
+    """Whether a moving frame is no longer published, or the age of its newest sample is high."""
     is_moving = info.parent is not None and not info.is_static
     return is_moving and (_has_stopped(info) or theme.is_stale(as_seconds(info.age)))
 

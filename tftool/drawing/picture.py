@@ -69,7 +69,7 @@ class Text:
 
 @dataclass(frozen=True, slots=True)
 class Curve:
-    """Curve of an edge, from (x0, y0) to (x1, y1), with vertical (`down`) or horizontal ends."""
+    """Curve from a frame at (x0, y0) to its child; the ends are vertical (`down`) or horizontal."""
 
     x0: float
     y0: float
@@ -129,7 +129,7 @@ class _Card:
 
 
 def _cards(forest: Forest, stale: Collection[str]) -> dict[str, _Card]:
-    """Return the cards of the drawn frames, by frame name.
+    """Return the card (box with a frame's facts) of each drawn frame, by the frame's name.
 
     If the descendants of a frame are omitted, a further card shows their number. The key of this
     card is the frame's name, a newline and "rest".

@@ -150,14 +150,14 @@ def keys(playback: Playback, *, ascii_only: bool = False) -> list[tuple[str, str
     return [(_ASCII.get(key, key) if ascii_only else key, does) for key, does in shown]
 
 
-def _bar(playback: Playback, room: int, ascii_only: bool, palette: theme.Palette) -> Text:
+def _bar(playback: Playback, width: int, ascii_only: bool, palette: theme.Palette) -> Text:
     """Return the bar of the timeline: findings as coloured spans, and the position on top."""
-    full = _place(playback.done, playback, room)
+    full = _place(playback.done, playback, width)
     solid, empty = ("#", ".") if ascii_only else ("━", "─")
     played, dim = theme.hexadecimal(palette.accent), theme.hexadecimal(palette.dim)
-    bar = [*[(solid, played)] * full, *[(empty, dim)] * (room - full)]
+    bar = [*[(solid, played)] * full, *[(empty, dim)] * (width - full)]
     for mark in reversed([one for one in playback.marks if one.is_timed]):
-        first, last = (_place(moment, playback, room) for moment in (mark.since, mark.until))
+        first, last = (_place(moment, playback, width) for moment in (mark.since, mark.until))
         style = theme.hexadecimal(_color(mark, palette))
         bar[first : last + 1] = [("=" if ascii_only else "═", style)] * (last + 1 - first)
         # One finding may fill the whole bar, so its begin has a sign of its own.
@@ -166,10 +166,10 @@ def _bar(playback: Playback, room: int, ascii_only: bool, palette: theme.Palette
     return Text.assemble(*bar)
 
 
-def _place(moment: Duration, playback: Playback, room: int) -> int:
-    """Return the column of the position `moment`, nanoseconds, on a timeline of `room` cells."""
+def _place(moment: Duration, playback: Playback, width: int) -> int:
+    """Return the column of the position `moment`, nanoseconds, on a timeline of `width` cells."""
     share = moment / playback.total if playback.total > 0 else 1.0
-    return max(0, min(room - 1, int(room * share)))
+    return max(0, min(width - 1, int(width * share)))
 
 
 def _color(mark: PlaybackMark, palette: theme.Palette) -> Color:

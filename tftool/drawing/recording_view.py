@@ -57,7 +57,7 @@ def as_text(recording: Recording, width: int | None = None, name: str | None = N
             ("name", "type", "messages", "rate", "publishers"),
             _topics(recording, topics),
             width,
-            goes=("publishers", "type"),
+            optional=("publishers", "type"),
             right=("messages", "rate"),
         )
     if edges:
@@ -66,7 +66,7 @@ def as_text(recording: Recording, width: int | None = None, name: str | None = N
             ("edge", "kind", "transforms", "rate", "delay", "least … most", "from"),
             list(map(_row, edges)),
             width,
-            goes=("kind", "transforms", "from", "least … most", "delay"),
+            optional=("kind", "transforms", "from", "least … most", "delay"),
             right=("transforms", "rate", "delay", "least … most"),
         )
     if recording.robot is not None:
@@ -232,7 +232,7 @@ def table(
     rows: list[tuple[str, ...]],
     width: int | None = None,
     *,
-    goes: tuple[str, ...] = (),
+    optional: tuple[str, ...] = (),
     right: tuple[str, ...] = (),
 ) -> list[str]:
     """Format a table as lines of text, with columns as wide as their widest cells.
@@ -241,7 +241,7 @@ def table(
         heads: Headings of the columns.
         rows: Cells of each row.
         width: Maximum length of a line in cells; None for no limit.
-        goes: Headings of columns to narrow or omit if the table is too wide, in this order.
+        optional: Headings of columns to narrow or omit if the table is too wide, in this order.
         right: Headings of columns with numbers, which are aligned to the right.
     """
     widths = [min(_WIDEST, max(map(len, column))) for column in zip(heads, *rows, strict=True)]
@@ -259,16 +259,16 @@ def table(
         TableColumn(
             head,
             [(row[at], "") for row in rows],
-            stands_right=head in right,
+            align_right=head in right,
             # A number must not be cut in its middle: it would look like another number.
-            caps=_NARROW if head in goes and head not in right else (),
-            goes=goes.index(head) + 1 if head in goes else 0,
+            caps=_NARROW if head in optional and head not in right else (),
+            drop_order=optional.index(head) + 1 if head in optional else 0,
         )
         for at, head in enumerate(heads)
         if at
     ]
     longest = max(map(cell_len, [heads[0], *(row[0] for row in rows)]))
-    fitted = fit(columns, width - 2, wanted=longest, longest=longest)
+    fitted = fit(columns, width - 2, reserved=longest, longest=longest)
     names = [Text(middle_cut(row[0], fitted.room)) for row in rows]
     shown = [fitted.heading(heads[0]), *(fitted.row(at, name) for at, name in enumerate(names))]
     return [f"  {line.plain}" for line in shown]
@@ -320,7 +320,7 @@ def as_lines(rows: Sequence[Mapping[str, Any]], width: int | None = None) -> str
         heads,
         lines,
         width,
-        goes=("kind", "trees", "messages", "frames", "transforms"),
+        optional=("kind", "trees", "messages", "frames", "transforms"),
         right=heads[2:],
     )
     wrong = {
@@ -372,7 +372,7 @@ def robot_as_text(name: str, robot: Robot, width: int | None = None) -> str:
                 for joint in joints.values()
             ],
             width,
-            goes=("mimics", "frames", "type"),
+            optional=("mimics", "frames", "type"),
         )
     if robot.notes:
         lines += ["", "Odd"]

@@ -55,10 +55,10 @@ def _processes(writer: "_Writer", processes: Sequence[Mapping[str, Any]]) -> lis
     return writer.heading("Processes", len(processes)) + writer.rows(
         [f"tftool {visible(one['command'])}" for one in processes],
         [
-            TableColumn("", [(f"process {one['pid']}", "dim") for one in processes], goes=1),
+            TableColumn("", [(f"process {one['pid']}", "dim") for one in processes], drop_order=1),
             TableColumn("", [(ROLES[one["role"]], "") for one in processes]),
             TableColumn(
-                "", [(f"since {_clock(one['since'])}", "dim") for one in processes], goes=2
+                "", [(f"since {_clock(one['since'])}", "dim") for one in processes], drop_order=2
             ),
         ],
         [_names(one["nodes"], "no nodes") for one in processes],
@@ -70,7 +70,9 @@ def _topics(writer: "_Writer", topics: Mapping[str, Any]) -> list[Text]:
         [visible(name) for name in topics],
         [
             TableColumn("", [(f"{one['rate']:.1f} Hz", "") for one in topics.values()], True),
-            TableColumn("", [(visible(one["type"]), "cyan") for one in topics.values()], goes=1),
+            TableColumn(
+                "", [(visible(one["type"]), "cyan") for one in topics.values()], drop_order=1
+            ),
         ],
         [
             f"from {_names(one['publishers'], 'none')}, to {_names(one['subscribers'], 'none')}"
@@ -83,11 +85,11 @@ def _services(writer: "_Writer", services: Mapping[str, Any], *, verbose: bool) 
     shown = {
         name: service["type"]
         for name, service in services.items()
-        if verbose or not _goes_without_saying(name, service["type"])
+        if verbose or not _is_left_out(name, service["type"])
     }
     told = writer.heading("Services", len(services), shown=len(shown))
     types = [(visible(ros_type), "cyan") for ros_type in shown.values()]
-    told += writer.rows([visible(name) for name in shown], [TableColumn("", types, goes=1)])
+    told += writer.rows([visible(name) for name in shown], [TableColumn("", types, drop_order=1)])
     folded = len(services) - len(shown)
     if folded:
         sentence = f"and {folded} of parameters and actions (--verbose lists them)"
@@ -121,13 +123,9 @@ def _brief(
     told = writer.heading("Topics", len(topics), f", from {arrow} to", shown=len(shown))
     told += writer.rows(
         [visible(name) for name in shown],
-        [TableColumn("", rates, True), TableColumn("", ways, caps=(most, 16), goes=1)],
+        [TableColumn("", rates, True), TableColumn("", ways, caps=(most, 16), drop_order=1)],
     )
-    names = [
-        visible(name)
-        for name, one in services.items()
-        if not _goes_without_saying(name, one["type"])
-    ]
+    names = [visible(name) for name, one in services.items() if not _is_left_out(name, one["type"])]
     told += writer.heading("Services", len(services), shown=len(names))
     listed = wrap_words(", ".join(names), max(10, (writer.width or 80) - len(INDENT)))
     told += [Text(f"{INDENT}{line}") for line in listed] if names else []
@@ -139,7 +137,7 @@ def _brief(
 
 
 def _few(nodes: Iterable[str], width: int, more: str, *, after: Sequence[str] = ()) -> str:
-    """Return the names of nodes in at most `width` cells.
+    """Return the names of nodes in at most `width` cells; `more` marks a shortened name.
 
     If the names are too long, return the first name and the number of other nodes. The names in
     `after` (publishers of the same topic) come last, so that other names are shown.
@@ -187,7 +185,7 @@ class _Writer:
         longest = max(map(cell_len, names))
         room = 10**6 if self.width is None else self.width - len(INDENT)
         wanted = min(longest, max(16, room // 2))
-        fitted = fit(columns, room, wanted=wanted, longest=longest, more=self.more)
+        fitted = fit(columns, room, reserved=wanted, longest=longest, more=self.more)
         told = []
         for place, name in enumerate(names):
             shown = middle_cut(name, fitted.room, more=self.more)
@@ -212,7 +210,7 @@ def _names(nodes: Iterable[str], none: str) -> str:
     return ", ".join(visible(node) for node in sorted(set(nodes))) or none
 
 
-def _goes_without_saying(name: str, ros_type: str) -> bool:
+def _is_left_out(name: str, ros_type: str) -> bool:
     """Whether to omit a service, because every node has the service or its name is hidden."""
     hidden = any(part.startswith("_") for part in name.split("/"))
     return hidden or ros_type.startswith(_EVERY_NODES)

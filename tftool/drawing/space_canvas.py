@@ -94,8 +94,8 @@ class DrawnSpace:
         image: Red, green and blue from 0 to 255 of the solids at every dot.
         depth: Nearest triangle at every dot, and its depth.
         layers: Lines in the order in which they are drawn.
-        edges: Mask of the dots at inner outlines, where a part is in front of another, and in a
-            plain picture (see `drawn`) also of the dots at outer outlines of solids.
+        edges: Mask of the dots of outlines: where one part hides another and, in a plain picture
+            (see `drawn`), around solids.
         names: Labels, the most important first: the frame, the text, the number of frames at this
             position, and the column and row in dots from the upper left corner.
         grid: Metres between two lines of the grid.
@@ -191,7 +191,7 @@ def drawn(
         tinted: Whether the solid under the cursor takes the colour of the cursor.
         plain: Whether to draw for a terminal of few colours. The ground is then a dot at each
             crossing of its grid. On a robot, only the frame under the cursor has axes and a line
-            to the parent frame. A small picture of a robot with many frames is drawn like this too.
+            to the parent frame. A small picture of a robot with many frames is always drawn so.
     """
     width, height = 2 * columns, 4 * rows
     poses = {one.name: one.pose for one in picture.frames}
@@ -259,29 +259,29 @@ def _shades(corners: Floats, triangles: Indices, owners: Indices) -> Floats:
     return shade[where]
 
 
-def _edges(whose: Indices, depths: Floats) -> npt.NDArray[np.bool_]:
+def _edges(parts: Indices, depths: Floats) -> npt.NDArray[np.bool_]:
     """Return a mask of the inner outlines: points behind a neighbour on another part.
 
     Args:
-        whose: Index of the part at each point; -1 without a solid.
+        parts: Index of the part at each point; -1 without a solid.
         depths: Depth of each point.
     """
-    edge = np.zeros(whose.shape, bool)
+    edge = np.zeros(parts.shape, bool)
     with np.errstate(invalid="ignore"):
         for here, there in (
             (np.s_[:, :-1], np.s_[:, 1:]),
             (np.s_[:-1], np.s_[1:]),
         ):
-            both = (whose[here] >= 0) & (whose[there] >= 0)
+            both = (parts[here] >= 0) & (parts[there] >= 0)
             gap = depths[here] - depths[there]
-            apart = both & ((whose[here] != whose[there]) | (np.abs(gap) > 8.0))
+            apart = both & ((parts[here] != parts[there]) | (np.abs(gap) > 8.0))
             edge[here] |= apart & (gap <= 0)
             edge[there] |= apart & (gap > 0)
     return edge
 
 
 def _outline(found: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
-    """Return a mask of the outermost points of solids; `found` is the mask of all their points."""
+    """Return a mask of the outermost points of solids; `found` is the mask of all points."""
     around = np.pad(found, 1)
     inner: npt.NDArray[np.bool_] = found & (
         around[:-2, 1:-1] & around[2:, 1:-1] & around[1:-1, :-2] & around[1:-1, 2:]
@@ -341,11 +341,11 @@ def _layers(
     view: Viewpoint,
     rows: int,
     palette: theme.Palette,
-    lined: Sequence[SpaceFrame],
+    with_axes: Sequence[SpaceFrame],
 ) -> list[Layer]:
     """Return the lines in drawing order: trails, lines to parents, the pair, axes.
 
-    Only the frames in `lined` have axes and a line to their parent.
+    Only the frames in `with_axes` have axes and a line to their parent.
     """
     paper = theme.paper(palette)
     poses = {one.name: one.pose for one in picture.frames}
@@ -357,17 +357,17 @@ def _layers(
         layers.append(Layer(color, view.project(ends)))
     links = [
         (one.pose.translation, poses[one.parent].translation)
-        for one in lined
+        for one in with_axes
         if one.parent in poses
     ]
     layers.append(Layer(paper.link, view.project(np.array(links, float).reshape(-1, 2, 3))))
     if picture.pair[0] in poses and picture.pair[1] in poses:
         pair = [[poses[name].translation for name in picture.pair]]
         layers.append(Layer(paper.accent, view.project(np.array(pair, float))))
-    length = axis_length(view, rows, len(lined))
+    length = axis_length(view, rows, len(with_axes))
     for number, color in enumerate((paper.x_axis, paper.y_axis, paper.z_axis)):
         axis = tuple(length * (place == number) for place in range(3))
-        ends = [(one.pose.translation, one.pose.apply(axis)) for one in lined]
+        ends = [(one.pose.translation, one.pose.apply(axis)) for one in with_axes]
         layers.append(Layer(color, view.project(np.array(ends, float).reshape(-1, 2, 3))))
     return layers
 

@@ -120,7 +120,7 @@ class TrafficHistory:
                     for looks in kept
                 ],
                 # The heading is at the right, above the newest value.
-                stands_right=True,
+                align_right=True,
             )
             for heading, part, factor, style in (
                 ("rate, max Hz", 1, 1.0, "green"),

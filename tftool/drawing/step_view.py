@@ -18,7 +18,7 @@ SCHEMA = "tftool.steps/1"
 
 
 def render(model: Model, steps: Sequence[LocalisationStep]) -> RenderableType:
-    """Return a table of jumps: time, edge, size, and the drift since the previous jump."""
+    """Return a table of jumps: time, frames, size, and the drift since the previous jump."""
     if not steps:
         return Text(visible(f"{model.evidence.name}: no steps"))
     table = Table(box=None, pad_edge=False, title_justify="left", title_style="bold")

@@ -268,14 +268,14 @@ def _table_row(info: FrameInfo, names: dict[str, str], marks: Marks) -> str:
     return f'<tr class="wrong">{written}</tr>' if ids else f"<tr>{written}</tr>"
 
 
-def _class(place: int, count: int, has_marks: bool) -> str:
+def _class(column: int, count: int, has_marks: bool) -> str:
     """Return the class attribute of a table cell: "frame" for names, "number" for numbers, or none.
 
     Args:
-        place: Index of the column.
+        column: Index of the column.
         count: Number of columns.
         has_marks: Whether the last column shows the doctor's findings.
     """
-    if place < 2:
+    if column < 2:
         return ' class="frame"'
-    return ' class="number"' if 4 <= place < count - has_marks else ""
+    return ' class="number"' if 4 <= column < count - has_marks else ""

@@ -23,16 +23,16 @@ class TableColumn:
     Attributes:
         heading: Text above the cells.
         cells: Text and style of the cell in each row.
-        stands_right: Whether to align the cells to the right, as for numbers.
+        align_right: Whether to align the cells to the right, as for numbers.
         caps: Maximum widths, from wide to narrow, to which the column shrinks before it is dropped.
-        goes: Order in which columns are dropped from a narrow table; 0 for a column that stays.
+        drop_order: Columns of a narrow table are dropped from 1 on; 0 for a column that stays.
     """
 
     heading: str
     cells: Sequence[Cell]
-    stands_right: bool = False
+    align_right: bool = False
     caps: tuple[int, ...] = ()
-    goes: int = 0
+    drop_order: int = 0
 
     @property
     def width(self) -> int:
@@ -44,7 +44,7 @@ class TableColumn:
         """Cut or pad a text to exactly `width` cells."""
         shown = middle_cut(text, width, more=more)
         room = " " * (width - cell_len(shown))
-        return room + shown if self.stands_right else shown + room
+        return room + shown if self.align_right else shown + room
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,37 +76,37 @@ class FittedColumns:
             line += " " * GAP + one.written(one.heading, width, self.more)
         return Text(line.rstrip(), style="dim")
 
-    def row(self, place: int, first: Text) -> Text:
-        """Return the line of one row; `first` is the first column's text."""
+    def row(self, index: int, first: Text) -> Text:
+        """Return the line of the row `index`; `first` is the first column's text."""
         line = Text(no_wrap=True, overflow="crop").append_text(first)
         line.append(" " * (self.room - first.cell_len))
         for one, width in zip(self.columns, self.widths, strict=True):
-            text, style = one.cells[place]
+            text, style = one.cells[index]
             line.append(" " * GAP).append(one.written(text, width, self.more), style=style)
         line.rstrip()
         return line
 
 
 def fit(
-    columns: Sequence[TableColumn], width: int, *, wanted: int, longest: int, more: str = "…"
+    columns: Sequence[TableColumn], width: int, *, reserved: int, longest: int, more: str = "…"
 ) -> FittedColumns:
-    """Narrow or drop columns until at least `wanted` cells are left for the first column.
+    """Narrow or drop columns until at least `reserved` cells are left for the first column.
 
     Args:
         columns: Columns from left to right; a column without text is left out.
         width: Width of the table in cells.
-        wanted: Cells wanted for the first column.
+        reserved: Cells to reserve for the first column.
         longest: Maximum number of cells that the first column can use.
         more: Sign that replaces omitted text.
     """
     kept = [one for one in columns if any(text for text, _ in one.cells)]
     while True:
         room = width - sum(one.width + GAP for one in kept)
-        going = [one for one in kept if one.goes]
-        if room >= wanted or not going:
+        going = [one for one in kept if one.drop_order]
+        if room >= reserved or not going:
             widths = tuple(one.width for one in kept)
             return FittedColumns(tuple(kept), widths, min(max(1, room), longest), more)
-        column = min(going, key=lambda one: one.goes)
+        column = min(going, key=lambda one: one.drop_order)
         place = kept.index(column)
         tighter = tuple(cap for cap in column.caps if cap < column.width)
         kept[place : place + 1] = [replace(column, caps=tighter)] if tighter else []
@@ -182,7 +182,7 @@ def wrap_words(sentence: str, width: int) -> list[str]:
 
 
 def rest_of_list(below: int, above: int, *, ascii_only: bool) -> str:
-    """Return text with the numbers of a list's rows hidden below and above; "" for none."""
+    """Return how many rows of a list are hidden below and above, as text; "" if none."""
     up, down = ("^", "v") if ascii_only else ("↑", "↓")
     words = [f"{down} {below} more"] if below else []
     return "   ".join(words + ([f"{up} {above} above"] if above else []))

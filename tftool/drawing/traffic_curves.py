@@ -90,7 +90,7 @@ class TrafficLayout:
         return theme.ink(color, bold=bold)
 
     def state(self, late: str) -> Color:
-        """Return the colour of an edge's numbers for `late`, the result of `late_style`."""
+        """Return the colour of a frame's numbers for `late`, the result of `late_style`."""
         palette = self.palette
         return {"yellow": palette.warning, "red": palette.error}.get(late, palette.text)
 
@@ -98,18 +98,18 @@ class TrafficLayout:
 def curves(
     now: Stamp, links: Sequence[FrameTraffic], history: TrafficHistory, layout: TrafficLayout
 ) -> list[Text]:
-    """Draw each edge's rate and delay over the last minute, in equally many lines per edge.
+    """Draw each frame's rate and delay over the last minute, in equally many lines per frame.
 
     Args:
         now: Current time of the clock in nanoseconds.
-        links: Edges (a frame and its parent) from top to bottom.
-        history: Earlier rates and delays of each edge.
+        links: Frames with their parents, from top to bottom.
+        history: Earlier rates and delays of each frame.
         layout: Size and style.
     """
     dim = layout.ink(layout.palette.dim)
     if not links:
         return [Text("No transforms yet.", dim)]
-    longest = max(cell_len(word) for one in links for word in _words(one, layout)) + 1
+    longest = max(cell_len(word) for one in links for word in _names(one, layout)) + 1
     layout = replace(layout, names=max(10, min(30, layout.width // 4, longest)))
     window = _window(now, links, history)
     digits = delay_digits(one.series for one in links if not one.is_static)
@@ -213,7 +213,7 @@ def _block(
     digits: int,
     layout: TrafficLayout,
 ) -> list[Text]:
-    """Return the lines of one edge: its name, and both curves beside their numbers."""
+    """Return the lines of one frame: its name, and both curves beside their numbers."""
     palette = layout.palette
     dim = layout.ink(palette.dim)
     late = late_style(now, link.series, link.is_static)
@@ -223,7 +223,7 @@ def _block(
     # A blank line below keeps tall curves of neighbours apart.
     tall = height - 1 if height > WITH_SCALE else height
     rates, delays = _numbers(now, link, tall, digits)
-    words = _words(link, layout, is_late=bool(late))
+    words = _names(link, layout, is_late=bool(late))
     healthy = layout.ink(layout.state(late) if late else _rate_color(palette))
     drawn = [
         _curve(looks, part, now, window, (layout.curve, tall), ink, layout)
@@ -252,8 +252,8 @@ def _block(
     return lines
 
 
-def _words(link: FrameTraffic, layout: TrafficLayout, *, is_late: bool = False) -> list[str]:
-    """Return three texts about an edge: frame (with a health sign), parent, and publisher."""
+def _names(link: FrameTraffic, layout: TrafficLayout, *, is_late: bool = False) -> list[str]:
+    """Return three texts: a sign (on time or late) with the frame, the parent, the publisher."""
     sign = ("!" if is_late else "+") if layout.ascii_only else "●"
     return [
         f"{' ' if link.is_static else sign} {visible(link.frame)}",
@@ -267,7 +267,7 @@ def _numbers(now: Stamp, link: FrameTraffic, tall: int, digits: int) -> tuple[li
 
     Args:
         now: Current time of the clock in nanoseconds.
-        link: Edge.
+        link: Frame with its parent.
         tall: Height of the curves in lines.
         digits: Number of decimals of delays.
     """

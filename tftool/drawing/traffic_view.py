@@ -94,8 +94,8 @@ def table(
 ) -> Text:
     """Return a table of frames (of the chain, if one is given) and a table of publishers.
 
-    An edge is amber if its transforms arrive long after their stamps, or if it has been silent for
-    many periods. An edge is red after a longer silence. The limits are those of the doctor.
+    A frame is amber if its transforms arrive long after their stamps, or if none has arrived for
+    many periods. A frame is red after a longer silence. The limits are those of the doctor.
 
     Args:
         now: Current time of the clock in nanoseconds.
@@ -116,8 +116,8 @@ def table(
     series = [link.series for link in links]
     statics = [link.is_static for link in links]
     columns = [
-        TableColumn("in", parents, caps=(24, 12), goes=4),
-        TableColumn("broadcaster", senders, caps=(24, 16, 11), goes=3),
+        TableColumn("in", parents, caps=(24, 12), drop_order=4),
+        TableColumn("broadcaster", senders, caps=(24, 16, 11), drop_order=3),
         *_measures(now, series, statics, ascii_only),
     ]
     names = [(visible(link.frame), late_style(now, link.series, link.is_static)) for link in links]
@@ -154,7 +154,7 @@ def _rows(
 ) -> list[Text]:
     longest = max(cell_len(text) for text, _ in [(heading, ""), *names])
     wanted = min(longest, max(12, width // 3))
-    fitted = fit(columns, width, wanted=wanted, longest=longest, more=more)
+    fitted = fit(columns, width, reserved=wanted, longest=longest, more=more)
     return [
         fitted.heading(heading),
         *(
@@ -175,12 +175,12 @@ def _within(rows: list[Text], room: int) -> list[Text]:
 def _measures(
     now: Stamp, series: list[Series], statics: list[bool], ascii_only: bool
 ) -> list[TableColumn]:
-    """Return the columns of rate, delay and time since the last message, for a table of edges.
+    """Return the columns of rate, delay and time since the last message, for a table of frames.
 
     Args:
         now: Current time of the clock in nanoseconds.
         series: Statistics of each row.
-        statics: Whether each row is a static edge.
+        statics: Whether the frame of each row is static.
         ascii_only: Whether to draw bars in ASCII.
     """
     digits = delay_digits(one for one, still in zip(series, statics, strict=True) if not still)
@@ -208,16 +208,19 @@ def _measures(
         for one, still, style in zip(series, statics, late, strict=True)
     ]
     return [
-        TableColumn("rate", shown, stands_right=True, goes=6),
-        TableColumn("", bars, goes=1),
+        TableColumn("rate", shown, align_right=True, drop_order=6),
+        TableColumn("", bars, drop_order=1),
         TableColumn(
             "delay",
             cells([milliseconds(one.average_delay, digits) for one in series]),
             True,
-            goes=5,
+            drop_order=5,
         ),
         TableColumn(
-            "max", cells([milliseconds(one.maximum_delay, digits) for one in series]), True, goes=2
+            "max",
+            cells([milliseconds(one.maximum_delay, digits) for one in series]),
+            True,
+            drop_order=2,
         ),
         TableColumn("last heard", silent, True),
     ]
@@ -240,7 +243,7 @@ def silence(now: Stamp, series: Series) -> Duration:
 
 
 def is_silent(now: Stamp, series: Series, is_static: bool) -> bool:
-    """Whether a moving edge has been silent for many of its periods."""
+    """Whether no transform of a moving frame has arrived for many of its periods."""
     if is_static or series.rate is None:
         return False
     return has_stopped(as_seconds(silence(now, series)), series.rate)
@@ -252,18 +255,18 @@ def has_stopped(silent: float, rate: float) -> bool:
 
 
 def present_rate(now: Stamp, series: Series) -> float | None:
-    """Return the rate of an edge or a publisher, hertz; 0 after a stop, None if unknown."""
+    """Return the rate of a frame or a publisher, hertz; 0 after a stop, None if unknown."""
     return 0.0 if is_silent(now, series, False) else series.rate
 
 
 def rate_words(now: Stamp, series: Series) -> str:
-    """Format the present rate of an edge or a publisher."""
+    """Format the present rate of a frame or a publisher."""
     rate = present_rate(now, series)
     return NONE if rate is None else f"{rate:.2f} Hz"
 
 
 def late_style(now: Stamp, series: Series, is_static: bool) -> str:
-    """Return the style of an edge's numbers: yellow or red if the edge is late, else ""."""
+    """Return the style of a frame's numbers: yellow or red if the frame is late, else ""."""
     if is_silent(now, series, is_static):
         return "red" if as_seconds(silence(now, series)) > FRAME_TIMEOUT else "yellow"
     delay = series.average_delay
@@ -299,7 +302,7 @@ def as_object(now: Stamp, traffic: Traffic, chain: Chain | None = None) -> dict[
 
 
 def links_of(traffic: Traffic, chain: Chain | None) -> list[FrameTraffic]:
-    """Return the edges of a report, sorted by frame name."""
+    """Return the frames of a report with their statistics, sorted by name."""
     wanted: Collection[str] = traffic.links if chain is None else chain.frames
     return [link for name, link in sorted(traffic.links.items()) if name in wanted]
 

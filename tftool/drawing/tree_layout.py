@@ -2,7 +2,7 @@
 
 A parent is above the middle between its first and last child. Siblings keep a gap. Subtrees are as
 close as their outlines allow, after an idea of Reingold and Tilford. Packing from one side would
-make small subtrees lean on one neighbour. So the forest is packed from both sides, and the mean
+push small subtrees against one neighbour. So the forest is packed from both sides, and the mean
 positions are used. The mean keeps the gaps, as both packings do, and is symmetric.
 
 Time and memory are linear in the number of items. No function is recursive, so a chain of thousands

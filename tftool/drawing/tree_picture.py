@@ -48,10 +48,11 @@ def draw(snapshot: Snapshot, form: str, marks: Marks = NO_MARKS) -> Drawing:
 
 
 def dot(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
-    """Return the text of a dot file; without static edges, view_frames writes the same bytes.
+    """Return the text of a dot file; without static transforms, view_frames writes the same bytes.
 
-    Static edges are dashed. All frames are in the picture. The legend is attached to every root.
-    view_frames attaches the legend to one root only, and fails if the frames form a loop.
+    Edges of static frames are dashed. All frames are in the picture. The legend is attached to
+    every root. view_frames attaches the legend to one root only, and fails if the frames form a
+    loop.
     """
     named = distinct(frame.frame for frame in snapshot.frames)
     known = frozenset(named)
