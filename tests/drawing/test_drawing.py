@@ -11,7 +11,6 @@ import pytest
 
 from tftool.base.stamps import seconds
 from tftool.buffer.sample import FrameInfo, Snapshot
-from tftool.drawing import tree_picture as drawing
 from tftool.drawing.tree_picture import draw
 from tftool.geometry.rigid import Transform
 
@@ -417,10 +416,6 @@ def test_a_pdf_page_never_grows_beyond_what_readers_take():
 
     box = re.search(rb"/MediaBox \[0 0 ([\d.]+) ([\d.]+)\]", data)
     assert max(float(box[1]), float(box[2])) <= 14_400
-
-
-def test_every_suffix_names_a_format():
-    assert set(drawing.SUFFIXES.values()) == set(drawing.FORMATS)
 
 
 # Frames that are no longer sent, letters that a font lacks, and the page
