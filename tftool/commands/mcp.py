@@ -113,7 +113,7 @@ class Questions:
             skip: Number of items to leave out at the beginning of the list in `part`.
         """
         if source:
-            return self._asked("info", source, part=part, skip=skip)
+            return self._run("info", source, part=part, skip=skip)
         names = [path.relative_to(self._root).as_posix() for path in self._files()]
         return fitted(names[skip:])
 
@@ -126,7 +126,7 @@ class Questions:
             part: One key of the answer, such as "roots" or "frames"; the whole answer if empty.
             skip: Number of items to leave out at the beginning of the list in `part`.
         """
-        return self._asked("tree", source, *_option("at", at), part=part, skip=skip)
+        return self._run("tree", source, *_option("at", at), part=part, skip=skip)
 
     def echo(self, target_frame: str, source_frame: str, source: str, at: str = "") -> str:
         """Return source_frame's pose in target_frame: translation, quaternion, roll, pitch, yaw.
@@ -138,7 +138,7 @@ class Questions:
             at: The moment; the newest transform if empty.
         """
         when = _option("at", at) or ["--once"]
-        return self._asked("echo", source, *when, frames=(target_frame, source_frame))
+        return self._run("echo", source, *when, frames=(target_frame, source_frame))
 
     def explain(self, target_frame: str, source_frame: str, source: str, at: str = "") -> str:
         """Return why a lookup succeeds or fails, frame by frame, and a remedy for a failed lookup.
@@ -150,7 +150,7 @@ class Questions:
             at: The moment; the end if empty.
         """
         frames = (target_frame, source_frame)
-        return self._asked("explain", source, *_option("at", at), frames=frames)
+        return self._run("explain", source, *_option("at", at), frames=frames)
 
     def doctor(
         self, source: str, check: str = "", urdf: str = "", part: str = "", skip: int = 0
@@ -167,7 +167,7 @@ class Questions:
         options = _option("select", check)
         if urdf:
             options.append(f"--urdf={self._file(urdf)}")
-        return self._asked("doctor", source, *options, part=part, skip=skip)
+        return self._run("doctor", source, *options, part=part, skip=skip)
 
     def plot(
         self,
@@ -192,9 +192,9 @@ class Questions:
         """
         options = [*_option("from", begin), *_option("to", end), *_option("only", only)]
         frames = (target_frame, source_frame)
-        return self._asked("plot", source, *options, frames=frames)
+        return self._run("plot", source, *options, frames=frames)
 
-    def _asked(
+    def _run(
         self,
         command: str,
         source: str,

@@ -258,7 +258,7 @@ def _refuse_outputs(
 
 
 def _print(found: Calibration, checked: PublishedMount | None, *, for_programs: bool) -> bool:
-    """Print a calibration; return whether the published mounting pose is outside the interval."""
+    """Print a calibration; return whether the published mount is outside the result's interval."""
     outside, compared = ((), None) if checked is None else _compared(found, checked)
     if for_programs:
         written = json.dumps(view.as_object(found, compared), indent=2, allow_nan=False)
@@ -281,34 +281,34 @@ Chain = tuple[Frames, str]
 """Frames of a file, and the value of --moving for a motion; empty for the file's only chain."""
 
 
-def _chains(opened: list[Frames], words: list[str]) -> list[Chain]:
+def _chains(opened: list[Frames], values: list[str]) -> list[Chain]:
     """Return the file and the --moving value of each motion; "" for a value that was not given.
 
     Args:
         opened: One or two opened files.
-        words: Values of --moving.
+        values: Values of --moving.
 
     Raises:
         UsageError: If a single file lacks two values, or one motion includes the published mount.
     """
     if len(opened) == 1:
-        if len(words) != 2:
+        if len(values) != 2:
             raise UsageError(
                 f"'{visible(opened[0].name)}' is the only FROM, so this source must contain both "
                 "motions: give --moving FIXED:MOVING twice."
             )
-        _refuse_shared_mount(opened[0].buffer, words)
-        return [(opened[0], words[0]), (opened[0], words[1])]
-    if len(words) == 1 and not _has(opened[0], words[0]) and _has(opened[1], words[0]):
-        words = ["", *words]
-    return list(zip(opened, [*words, "", ""][:2], strict=True))
+        _refuse_shared_mount(opened[0].buffer, values)
+        return [(opened[0], values[0]), (opened[0], values[1])]
+    if len(values) == 1 and not _has(opened[0], values[0]) and _has(opened[1], values[0]):
+        values = ["", *values]
+    return list(zip(opened, [*values, "", ""][:2], strict=True))
 
 
-def _has(frames: Frames, word: str) -> bool:
+def _has(frames: Frames, value: str) -> bool:
     """Return whether `frames` has the frames or the topic that a value of --moving names."""
-    if word.startswith("/"):
-        return frames.recording is not None and word in _topics(frames)
-    return all(frames.buffer.frame_exists(name) for name in _pair(word))
+    if value.startswith("/"):
+        return frames.recording is not None and value in _topics(frames)
+    return all(frames.buffer.frame_exists(name) for name in _pair(value))
 
 
 def _topics(frames: Frames) -> list[str]:
@@ -316,9 +316,9 @@ def _topics(frames: Frames) -> list[str]:
     return [] if recording is None else [one.name for one in implying(recording.topics)]
 
 
-def _refuse_shared_mount(buffer: Buffer, words: list[str]) -> None:
+def _refuse_shared_mount(buffer: Buffer, values: list[str]) -> None:
     """Raise UsageError if the transforms of one motion include the published mounting pose."""
-    pairs = [_pair(word) for word in words if not word.startswith("/")]
+    pairs = [_pair(word) for word in values if not word.startswith("/")]
     if len(pairs) < 2:
         return
     try:
@@ -327,12 +327,12 @@ def _refuse_shared_mount(buffer: Buffer, words: list[str]) -> None:
         return
     moving = [{one for one in side if not buffer.samples(one).is_static} for side in links]
     shared = sorted(moving[0] & moving[1])
-    for word, path, (_, other) in zip(words, links, (pairs[1], pairs[0]), strict=True):
+    for word, path, (_, other) in zip(values, links, (pairs[1], pairs[0]), strict=True):
         below = next((one for one in path if buffer.parent(one) == other), None)
         if below is not None:
             _refuse_chain(word, other, below)
     if shared:
-        _refuse_chain(words[1], buffer.parent(shared[0]) or "", shared[0])
+        _refuse_chain(values[1], buffer.parent(shared[0]) or "", shared[0])
 
 
 def _refuse_chain(word: str, parent: str, child: str) -> NoReturn:
@@ -413,7 +413,7 @@ LEAST_DIFFERENCE: Final = (0.001, 0.1)
 def _compared(
     found: Calibration, published: PublishedMount
 ) -> tuple[list[str], dict[str, object] | None]:
-    """Return sentences on how the published mount is outside the interval, and data for --json."""
+    """Compare the published mount with the result: return the differences as sentences and data."""
     if published.mount is None or found.mount is None or found.interval95 is None:
         return [], None
     shift, turn = np.split(difference(found.mount, published.mount), 2)

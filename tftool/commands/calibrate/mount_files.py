@@ -134,7 +134,7 @@ def write_mount(
 
 
 def joint_to_change(output: Path, published: PublishedMount, name: str | None) -> RobotJoint | None:
-    """Return the joint `name`; without a name, the first fixed joint from the parent to the sensor.
+    """Return the joint `name`; if None, the first fixed joint from the parent to the sensor.
 
     Return None if no joint matches and `output` is not a description.
 

@@ -40,53 +40,53 @@ SUFFIXES = (".yaml", ".yml")
 """Suffixes of scenario files in a folder."""
 
 
-def _unfolded(word: str) -> list[str]:
+def _expanded(name: str) -> list[str]:
     """Return the scenario files that a glob or folder contains; return any other word unchanged.
 
     tftool expands globs itself because not every shell does.
     """
     files: list[str] = []
-    if builtin.path_of(word) is None:
-        if os.path.isdir(word):
-            listed = sorted(os.listdir(word))
+    if builtin.path_of(name) is None:
+        if os.path.isdir(name):
+            listed = sorted(os.listdir(name))
             if METADATA not in listed:
-                files = [os.path.join(word, one) for one in listed if one.endswith(SUFFIXES)]
-        elif not os.path.lexists(word):
-            files = sorted(glob.glob(word))
-    return files or [word]
+                files = [os.path.join(name, one) for one in listed if one.endswith(SUFFIXES)]
+        elif not os.path.lexists(name):
+            files = sorted(glob.glob(name))
+    return files or [name]
 
 
 def _judge(
-    word: str, judge: Callable[..., Verdict], kept: "_Kept | None", *, own_nodes: bool
+    name: str, judge: Callable[..., Verdict], folder: "_RecordingFolder | None", *, own_nodes: bool
 ) -> "tuple[Report, bool]":
     """Judge one scenario; return a report, and whether the scenario file could be read.
 
     The report has warnings and, for a failure, the doctor's findings. `own_nodes` says whether
-    nodes of the scenario run; only then, contradictions between their edges become warnings.
+    nodes of the scenario run; only then, a frame with two parents or in a loop is a warning.
     """
     try:
-        scenario = scenario_named(word)
+        scenario = scenario_named(name)
     except InputError as error:
         why = str(error)
-        if Path(word).is_dir():  # the error text would also mention recordings
-            why = f"No scenario ({', '.join(SUFFIXES)}) is in the folder '{word}'."
+        if Path(name).is_dir():  # the error text would also mention recordings
+            why = f"No scenario ({', '.join(SUFFIXES)}) is in the folder '{name}'."
         complain("tftool", why)
-        return Report(Path(word).stem or word, word, (), failure=why), False
+        return Report(Path(name).stem or name, name, (), failure=why), False
     warnings = tuple(str(mistake) for mistake in scenario.not_a_tree) if own_nodes else ()
     for warning in warnings:
         notice(visible_lines(warning))
-    heard = _Heard(scenario)
-    if kept is None:
-        verdict = judge(scenario, watch=heard.watching)
+    log = _RunLog(scenario)
+    if folder is None:
+        verdict = judge(scenario, watch=log.watching)
     else:
-        verdict = _recorded(scenario, judge, kept.place(scenario.name), heard)
+        verdict = _recorded(scenario, judge, folder.path_for(scenario.name), log)
     for warning in verdict.warnings:
         notice(visible_lines(warning))
-    found = () if verdict.ok else heard.findings()
+    found = () if verdict.ok else log.findings()
     return replace(verdict.report(), warnings=warnings + verdict.warnings, why=found), True
 
 
-class _Heard:
+class _RunLog:
     """Recorder of the transforms of one scenario run.
 
     If an expectation fails, the doctor examines the recorded transforms.
@@ -149,14 +149,14 @@ class _Heard:
         )
 
 
-class _Kept:
+class _RecordingFolder:
     """Folder for the recordings of failed scenarios; each recording has a unique file name."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
         self._names: set[str] = set()
 
-    def place(self, name: str) -> Path:
+    def path_for(self, name: str) -> Path:
         """Return a new path for a scenario's recording; append a number if the name was used."""
         plain = free = re.sub(r"[^0-9A-Za-z_-]", "_", name)
         number = 1
@@ -168,33 +168,33 @@ class _Kept:
 
 
 def _recorded(
-    scenario: Scenario, judge: Callable[..., Verdict], kept: Path, heard: _Heard
+    scenario: Scenario, judge: Callable[..., Verdict], path: Path, log: _RunLog
 ) -> Verdict:
     """Judge a scenario, and record the run; the recording stays only if an expectation failed."""
     try:
-        kept.parent.mkdir(parents=True, exist_ok=True)
+        path.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         reason = error.strerror or error
         raise InputError(
-            f"The folder '{visible(str(kept.parent))}' cannot be written to: {reason}."
+            f"The folder '{visible(str(path.parent))}' cannot be written to: {reason}."
         ) from error
     # Imported here, because the recorder imports the writers of all containers.
     from tftool.world.nodes.recorder import recorded
 
     # A temporary name until the judgement: an earlier recording stays if nothing fails.
-    played = kept.with_name(f".{kept.name}")
+    played = path.with_name(f".{path.name}")
 
     @contextmanager
     def watching(world: World) -> Iterator[None]:
-        with heard.watching(world), recorded(world, path=played, force=True):
+        with log.watching(world), recorded(world, path=played, force=True):
             yield
 
     verdict = judge(scenario, watch=watching)
     if verdict.ok:
         played.unlink(missing_ok=True)
     else:
-        played.replace(kept)
-        notice(f"Recorded: {visible(str(kept))}")
+        played.replace(path)
+        notice(f"Recorded: {visible(str(path))}")
     return verdict
 
 
@@ -211,7 +211,7 @@ def run(options: CheckOptions) -> ExitStatus:
         raise UsageError(
             "no scenario is given: write a name or a file, or a package as --as-ros PACKAGE"
         )
-    kept = None if options.recordings is None else _Kept(options.recordings)
+    kept = None if options.recordings is None else _RecordingFolder(options.recordings)
     judging: AbstractContextManager[Callable[..., Verdict]]
     runs_programs = options.programs or options.launched is not None
     if runs_programs or options.packages:
@@ -227,7 +227,7 @@ def run(options: CheckOptions) -> ExitStatus:
         judged = [
             _judge(word, judge, kept, own_nodes=options.launched is None)
             for words in options.scenarios or ()
-            for word in _unfolded(words)
+            for word in _expanded(words)
         ]
     if options.packages:
         judged += [(report, True) for report in judge_packages(options.packages)]

@@ -47,7 +47,7 @@ def judge_with(
     workspace = Workspace(Path.cwd())
     for skipped in workspace.skipped if verbose else ():
         notice(visible_lines(skipped))
-    log = FoldedLog(whole=verbose)
+    log = FoldedLog(prints_all=verbose)
 
     def judge(scenario: Scenario, **given: Any) -> Verdict:
         try:

@@ -47,7 +47,7 @@ from tftool.world.world import World
 
 
 def _show(
-    connection: Connection, options: DemoOptions, chosen: Scenario, wanted: str | None
+    connection: Connection, options: DemoOptions, chosen: Scenario, name: str | None
 ) -> str | None:
     """Show a scenario or the running session until the user quits or chooses another scenario.
 
@@ -55,12 +55,12 @@ def _show(
         connection: Connection of the command.
         options: Options of the command.
         chosen: Scenario to show if no session is joined.
-        wanted: Name of the scenario; None to join the running session if there is one.
+        name: Name of the scenario; None to join the running session if there is one.
 
     Returns:
         Name of the scenario that the user chose next; None if the user quit.
     """
-    found = join_or_host(connection, wanted, needs_turtles=True)
+    found = join_or_host(connection, name, needs_turtles=True)
     if found.session is None:
         return _show_hosted(connection, options, chosen, found)
     if options.recording is not None:
@@ -84,7 +84,7 @@ def _end(options: DemoOptions, world: World) -> Stamp | None:
 
 
 def _show_hosted(
-    connection: Connection, options: DemoOptions, chosen: Scenario, found: JoinDecision
+    connection: Connection, options: DemoOptions, chosen: Scenario, decision: JoinDecision
 ) -> str | None:
     """Show a scenario in a new session that other processes can join.
 
@@ -95,10 +95,10 @@ def _show_hosted(
     if options.recording is not None:
         around = partial(recorded, path=options.recording)
     play = build(left_to_a_person(chosen), connection.providers.wall_clock(options.rate))
-    world, link = play.world, found.link
-    if found.alone:
+    world, link = play.world, decision.link
+    if decision.alone:
         # Notices printed before the screen opens would be hidden behind it.
-        world.log.warn("session", found.alone)
+        world.log.warn("session", decision.alone)
 
     async def life() -> None:
         until = _end(options, world)
@@ -130,21 +130,22 @@ def _list(*, for_programs: bool) -> None:
     write(table)
 
 
-def _show_recording(connection: Connection, options: DemoOptions, word: str) -> None:
+def _show_recording(connection: Connection, options: DemoOptions, recording: str) -> None:
     """Show a recording, paused at its beginning."""
     if lacking := screen_lacks():
         raise UsageError(
-            f"The demo's screen needs a terminal, and {lacking}: 'tftool tree {visible(word)}' "
-            f"prints its frames, 'tftool view {visible(word)}' shows them in a browser."
+            f"The demo's screen needs a terminal, and {lacking}: "
+            f"'tftool tree {visible(recording)}' prints its frames, "
+            f"'tftool view {visible(recording)}' shows them in a browser."
         )
-    frames = open_from(connection, word)
+    frames = open_from(connection, recording)
     shown = at_rest(connection, frames)
 
     async def life() -> None:
         await shown.clock.sleep_until(frames.span[1], Phase.WATCH)
         await asyncio.get_running_loop().create_future()
 
-    title = f"tftool demo {visible(Path(word).name)}"
+    title = f"tftool demo {visible(Path(recording).name)}"
     setting = screen_setting(options, title, at=first_look(frames))
     scene = Scene(shown)
     if frames.robot is not None:

@@ -154,22 +154,22 @@ def _measure_errors(
         sys.stdout.write(view.error_lines(found, names, line_width()))
 
 
-def _side(connection: Connection, word: str, lasting: Duration | None) -> Side:
-    """Open the frames of one source, A or B.
+def _side(connection: Connection, source: str, duration: Duration | None) -> Side:
+    """Open the frames of one source, A or B; listen to a session for `duration`.
 
     Raises:
-        InputError: If `word` names no source of frames, or the file cannot be read.
-        LinkError: If `word` is "session", and no session runs.
+        InputError: If `source` names no source of frames, or the file cannot be read.
+        LinkError: If `source` is "session", and no session runs.
     """
-    if word != SESSION:
-        return side_of(open_from(connection, word, lasting, until=WHOLE, shares=True), word)
-    frames = listen_from(connection, lasting)
+    if source != SESSION:
+        return side_of(open_from(connection, source, duration, until=WHOLE, shares=True), source)
+    frames = listen_from(connection, duration)
     if frames is None:
         raise LinkError(NOTHING_RUNS)
-    return side_of(frames, word)
+    return side_of(frames, source)
 
 
-def _pairs(words: list[str]) -> tuple[Pair | None, Pair | None]:
+def _pairs(values: list[str]) -> tuple[Pair | None, Pair | None]:
     """Parse the values of --pair; return the pair of frames for A and the pair of frames for B.
 
     A single value is for both. Without --pair, both are None: A and B must have one chain each.
@@ -177,7 +177,7 @@ def _pairs(words: list[str]) -> tuple[Pair | None, Pair | None]:
     Raises:
         UsageError: If --pair is given more than twice, or a value is not TARGET:SOURCE.
     """
-    pairs, _ = pairs_and_place([], words)
+    pairs, _ = pairs_and_place([], values)
     if len(pairs) > 2:
         raise UsageError(
             "--pair is given more than twice: give one pair for both sources, or one for A and one "

@@ -120,7 +120,7 @@ def run(connection: Connection, options: DoctorOptions) -> ExitStatus:
 
 
 def _examination(connection: Connection, options: DoctorOptions) -> Examination:
-    """Return the checks to run, the thresholds, and the part of the source to examine.
+    """Return the settings of the examination: checks, thresholds, part of the source.
 
     Raises:
         UsageError: If a value of --limit is not ID.NAME=NUMBER.
@@ -235,9 +235,9 @@ def _refuse_contradictions(options: DoctorOptions) -> None:
     )
 
 
-def _words(given: Sequence[str] | None) -> tuple[str, ...]:
+def _words(values: Sequence[str] | None) -> tuple[str, ...]:
     """Split the comma-separated values of an option, which may be given several times."""
-    return tuple(word.strip() for one in given or () for word in one.split(",") if word.strip())
+    return tuple(word.strip() for one in values or () for word in one.split(",") if word.strip())
 
 
 def _sweep(
@@ -289,12 +289,12 @@ def _diagnosed(connection: Connection, options: DoctorOptions, task: Examination
     return judged
 
 
-def _print(judged: Judged, options: DoctorOptions) -> None:
-    """Print every diagnosis; for several sources, also print a comparison as text."""
-    diagnoses = [found for _, found in judged if not isinstance(found, str)]
+def _print(results: Judged, options: DoctorOptions) -> None:
+    """Print the diagnosis of each source; for several sources, also a comparison as text."""
+    diagnoses = [found for _, found in results if not isinstance(found, str)]
     if options.for_programs:
         objects = [view.as_object(one) for one in diagnoses]
-        write_json(objects[0] if len(judged) == 1 and objects else objects)
+        write_json(objects[0] if len(diagnoses) == 1 and objects else objects)
         return
     if options.markdown:
         sys.stdout.write("\n".join(view.as_markdown(one) for one in diagnoses))
@@ -305,16 +305,16 @@ def _print(judged: Judged, options: DoctorOptions) -> None:
         write(view.render(one, verbose=options.verbose))
         if options.statistics:
             write(view.statistics(one.model))
-    if len(judged) > 1:
+    if len(diagnoses) > 1:
         sys.stdout.write("\n")
-        write(view.compared(judged))
+        write(view.compared(results))
 
 
-def _status(judged: Judged, fails: Severity | None) -> ExitStatus:
+def _status(results: Judged, fails: Severity | None) -> ExitStatus:
     """Return the worst exit status of all sources."""
-    if any(isinstance(found, str) for _, found in judged):
+    if any(isinstance(found, str) for _, found in results):
         return ExitStatus.UNREADABLE
-    worst = [found.worst for _, found in judged if not isinstance(found, str)]
+    worst = [found.worst for _, found in results if not isinstance(found, str)]
     if fails is not None and any(one is not None and one.rank <= fails.rank for one in worst):
         return ExitStatus.FAILED
     return ExitStatus.DONE

@@ -141,7 +141,7 @@ def _print_moment(
         notice(sentence)
 
 
-def _place_or_rate(place: str | None, rate: float | None) -> tuple[str | None, float | None]:
+def _place_or_rate(word: str | None, rate: float | None) -> tuple[str | None, float | None]:
     """Return the source of the frames and the rate, from the third word and --rate.
 
     As in tf2_echo, a third word that is a number is the rate, unless a file has that name.
@@ -149,17 +149,17 @@ def _place_or_rate(place: str | None, rate: float | None) -> tuple[str | None, f
     Raises:
         UsageError: If the rate is given twice.
     """
-    if place is None:
-        return place, rate
+    if word is None:
+        return word, rate
     try:
-        number = float(place)
+        number = float(word)
     except ValueError:
-        return place, rate
-    if Path(place).exists():
-        return place, rate
+        return word, rate
+    if Path(word).exists():
+        return word, rate
     if rate is not None:
         raise UsageError(
-            f"The rate is given twice, as {place} and as --rate {rate:g}: leave one out."
+            f"The rate is given twice, as {word} and as --rate {rate:g}: leave one out."
         )
     return None, within(0.001, 1000)(number)
 

@@ -72,13 +72,13 @@ def run(connection: Connection, options: ExplainOptions) -> ExitStatus:
 
 
 def _explain_joints(
-    connection: Connection, place: str, frames: tuple[str, str], *, for_programs: bool
+    connection: Connection, description: str, frames: tuple[str, str], *, for_programs: bool
 ) -> ExitStatus:
     """Print why a lookup in a robot description succeeds or fails, joint by joint."""
-    opened = open_from(connection, place, tells=False)
+    opened = open_from(connection, description, tells=False)
     robot, joints = opened.robot, connection.robot.joints
     assert robot is not None
-    told = chained(robot, joints, *frames, place)
+    told = chained(robot, joints, *frames, description)
     for note in (*robot.notes, *beyond_limits(robot, joints)):
         notice(visible(note))
     _print(joint_chain_view, told, for_programs=for_programs)

@@ -92,13 +92,13 @@ def _refuse_misfits(form: Format, pairs: list[tuple[str, str]], options: ExportO
     )
 
 
-def _as_object(done: Exported) -> dict[str, object]:
+def _as_object(exported: Exported) -> dict[str, object]:
     """Return the written files and the number of failed lookups as a mapping, for --json."""
     return {
         "schema": "tftool.export/1",
-        "files": [str(path) for path in done.paths],
-        "format": str(done.format),
-        "count": done.count,
+        "files": [str(path) for path in exported.paths],
+        "format": str(exported.format),
+        "count": exported.count,
         "pairs": [
             {
                 "target": one.target,
@@ -108,14 +108,14 @@ def _as_object(done: Exported) -> dict[str, object]:
                 "refused": one.refused,
                 "reason": one.refusals[0].reason.strip() if one.refusals else None,
             }
-            for one in done.trajectories
+            for one in exported.trajectories
         ],
     }
 
 
-def _tell(done: Exported) -> None:
+def _tell(exported: Exported) -> None:
     """Report on stderr how many rows were written, and how many were omitted."""
-    for one in done.trajectories:
+    for one in exported.trajectories:
         if one.refused:
             reason = one.refusals[0].reason.strip()
             notice(
@@ -124,14 +124,14 @@ def _tell(done: Exported) -> None:
                     f"have no pose and are left out. The first: {reason}"
                 )
             )
-    what = "pose" if done.format.is_trajectory else "link"
-    if done.format is Format.mcap:
+    what = "pose" if exported.format.is_trajectory else "link"
+    if exported.format is Format.mcap:
         what = "transform"
-    moments = {one.moments for one in done.trajectories}
+    moments = {one.moments for one in exported.trajectories}
     when = f", {moments.pop()}" if len(moments) == 1 else ""
-    names = " and ".join(str(path) for path in done.paths)
-    notice(visible(f"Wrote {count(done.count, what)} to {names}{when}."))
-    if done.format is Format.kitti:
+    names = " and ".join(str(path) for path in exported.paths)
+    notice(visible(f"Wrote {count(exported.count, what)} to {names}{when}."))
+    if exported.format is Format.kitti:
         notice(
             "In KITTI's frames, z points forward: the poses are written without turning their axes."
         )

@@ -105,23 +105,23 @@ class FleetTask:
 
     Attributes:
         columns: Names and types of the columns of a row.
-        judged: Names of those columns that `outcome` reads.
+        outcome_columns: Names of those columns that `outcome` reads.
     """
 
     __slots__ = ()
 
     columns: ClassVar[Mapping[str, ColumnKind]]
-    judged: ClassVar[Sequence[str]]
+    outcome_columns: ClassVar[Sequence[str]]
 
-    def rows(self, source: str, place: str) -> list[Row]:
+    def rows(self, source: str, address: str) -> list[Row]:
         """Return the rows of one recording; an unreadable recording gives one row, not an error.
 
         Args:
             source: Name of the recording in the rows.
-            place: Path or URL of the recording.
+            address: Path or URL of the recording.
         """
         try:
-            with fetched(place) as path:
+            with fetched(address) as path:
                 return self.read(source, path)
         except UsageError:
             raise
@@ -153,7 +153,7 @@ class Examination(FleetTask):
     """
 
     columns = FINDINGS
-    judged = ("id", "severity", "because_of")
+    outcome_columns = ("id", "severity", "because_of")
 
     settings: "Settings"
     select: tuple[str, ...]
@@ -225,7 +225,7 @@ class Inventory(FleetTask):
     """Task of `tftool info`: describe the contents of one recording in one row."""
 
     columns = FACTS
-    judged = ("damage", "unreadable")
+    outcome_columns = ("damage", "unreadable")
 
     def read(self, source: str, path: str) -> list[Row]:
         """Return the row of one recording."""
@@ -297,7 +297,7 @@ def sweep(
                 output.write(rows)
             outcome = task.outcome(rows)
             counts[outcome] = counts.get(outcome, 0) + 1
-            progress.update(bar, advance=1, found=told(counts))
+            progress.update(bar, advance=1, found=summary(counts))
     return counts, [row for source in left for row in kept.get(source, ())]
 
 
@@ -391,7 +391,7 @@ def _alone(source: str, task: FleetTask) -> list[Row]:
 # Which recordings, and what came of them
 
 
-def expanded(words: Sequence[str]) -> list[str]:
+def expanded(names: Sequence[str]) -> list[str]:
     """Expand files, folders, globs and URLs into a list of recordings without duplicates.
 
     A file that matches a glob is included if the file has the suffix of a recording, even if the
@@ -401,7 +401,7 @@ def expanded(words: Sequence[str]) -> list[str]:
         InputError: If a glob or web folder has no matches, or cannot be listed.
     """
     found: list[str] = []
-    for word in words:
+    for word in names:
         if is_url(word):
             found += listed(word)
             continue
@@ -437,7 +437,7 @@ def _is_recording(path: str) -> bool:
         return False
 
 
-def told(counts: dict[str, int]) -> str:
+def summary(counts: dict[str, int]) -> str:
     """Return the numbers of recordings by outcome as text: "3 with errors, 12 fine"."""
     words = {
         "error": "with errors",
@@ -455,24 +455,24 @@ def announce(counts: dict[str, int], earlier: dict[str, int], output: Path) -> N
     """Print the number of recordings by outcome: processed now (`counts`), before (`earlier`)."""
     total = sum(counts.values())
     passed = sum(earlier.values())
-    over = f" ({passed:,} were in the file already: {told(earlier)})" if passed else ""
-    what = told(counts) or "nothing left to do"
+    over = f" ({passed:,} were in the file already: {summary(earlier)})" if passed else ""
+    what = summary(counts) or "nothing left to do"
     name = "recording" if total == 1 else "recordings"
     sys.stdout.write(f"{total:,} {name}: {what}. Rows are in {visible(str(output))}{over}.\n")
 
 
 def swept_into(
-    words: Sequence[str], path: Path, workers: Workers, task: FleetTask, *, resume: bool
+    names: Sequence[str], path: Path, workers: Workers, task: FleetTask, *, resume: bool
 ) -> dict[str, int]:
     """Process many recordings, write a file of rows, and print the summary.
 
     Returns:
         Number of recordings in the whole file, by outcome.
     """
-    sources = expanded(words)
+    sources = expanded(names)
     if not sources:
         raise UsageError("Name the recordings: files, folders, globs, URLs.")
-    output = RowFile(path, task.columns, task.judged, resume=resume)
+    output = RowFile(path, task.columns, task.outcome_columns, resume=resume)
     try:
         counts, _ = sweep(sources, output, workers, task)
     finally:

@@ -51,7 +51,7 @@ class RowFile:
         self,
         path: Path,
         columns: Mapping[str, ColumnKind],
-        judged: Sequence[str] = (),
+        outcome_columns: Sequence[str] = (),
         *,
         resume: bool,
     ) -> None:
@@ -60,7 +60,7 @@ class RowFile:
         Args:
             path: Path of the file, whose suffix selects the format: .jsonl, .csv or .parquet.
             columns: Names and types of the columns.
-            judged: Names of the columns that `earlier` returns for existing rows.
+            outcome_columns: Names of the columns that `earlier` returns for existing rows.
             resume: Whether to keep existing rows and append new rows.
 
         Raises:
@@ -76,7 +76,7 @@ class RowFile:
         if self._is_parquet:
             _arrow()
         self._growing = path.with_name(f"{path.name}.part") if self._is_parquet else path
-        self._judged = (self.source, *judged)
+        self._judged = (self.source, *outcome_columns)
         self._done: dict[str, list[Row]] = {}
         try:
             for row in self._held() if resume else ():
@@ -103,7 +103,7 @@ class RowFile:
     def earlier(self, source: str) -> list[Row]:
         """Return the rows of a recording that the file already had at opening; else an empty list.
 
-        Each row has at least the columns named in `judged`.
+        Each row has at least the columns named in `outcome_columns`.
         """
         written = _cell(source) if self._suffix == ".csv" else source
         return self._done.get(str(written)) or (
@@ -111,7 +111,7 @@ class RowFile:
         )
 
     def _held(self) -> Iterator[Row]:
-        """Yield the rows that the file has at opening, with at least the columns named in `judged`.
+        """Yield the rows that the file has at opening, with at least `outcome_columns`.
 
         An incomplete last line is removed from the file.
         """

@@ -23,9 +23,9 @@ SETTLE = seconds(0.5)
 
 
 def _tell(record: LogRecord) -> None:
-    """Print a log record of the follower node, or a warning or error of another node.
+    """Print a log message of the follower node, or a warning or error of another node.
 
-    Records of the node "link" are omitted: the session prints the node's warnings itself.
+    Messages of the node "link" are omitted, because the session prints them.
     """
     if record.node == NAME or (record.level in PROBLEMS and record.node != "link"):
         tell_record(record)

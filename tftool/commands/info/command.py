@@ -54,19 +54,19 @@ def _is_launch_file(place: str) -> bool:
     return Path(place).is_file() and named(place).kind is Kind.STATICS
 
 
-def _is_text(place: str) -> bool:
+def _is_text(path: str) -> bool:
     """Return whether a path names a robot description, launch file or script, not a recording."""
     try:
-        return Path(place).is_file() and named(place).kind in (Kind.DESCRIPTION, Kind.STATICS)
+        return Path(path).is_file() and named(path).kind in (Kind.DESCRIPTION, Kind.STATICS)
     except InputError:
         return False
 
 
-def _list_texts(connection: Connection, places: list[str], *, for_programs: bool) -> ExitStatus:
+def _list_texts(connection: Connection, paths: list[str], *, for_programs: bool) -> ExitStatus:
     """Print a line for each robot description or launch file, and every mistake in the files."""
     rows: list[dict[str, object]] = []
-    for place in places:
-        kind, path = named(place).kind, Path(place)
+    for name in paths:
+        kind, path = named(name).kind, Path(name)
         noun = "joint" if kind is Kind.DESCRIPTION else "static transform"
         number = 0
         mistakes: list[str] = []
@@ -74,15 +74,15 @@ def _list_texts(connection: Connection, places: list[str], *, for_programs: bool
             if kind is Kind.DESCRIPTION:
                 number = len(load_urdf(path, connection.robot.arguments).joints)
             else:
-                statics, wrong, _ = read_statics(path, place)
+                statics, wrong, _ = read_statics(path, name)
                 number, mistakes = len(statics), [text for _, text in wrong]
         except InputError as error:
             mistakes = [str(error)]
         rows.append(
-            {"source": place, "kind": kind.value, "transforms": number, "mistakes": mistakes}
+            {"source": name, "kind": kind.value, "transforms": number, "mistakes": mistakes}
         )
         if not for_programs:
-            sys.stdout.write(f"{visible(place)}: {kind.value}, {count(number, noun)}\n")
+            sys.stdout.write(f"{visible(name)}: {kind.value}, {count(number, noun)}\n")
         for mistake in mistakes:
             complain("tftool info", mistake)
     if for_programs:
@@ -90,9 +90,9 @@ def _list_texts(connection: Connection, places: list[str], *, for_programs: bool
     return ExitStatus.UNREADABLE if any(row["mistakes"] for row in rows) else ExitStatus.DONE
 
 
-def _show(connection: Connection, place: str, name: str, *, for_programs: bool) -> ExitStatus:
+def _show(connection: Connection, path: str, name: str, *, for_programs: bool) -> ExitStatus:
     """Print everything about one recording or robot description."""
-    found = named(place)
+    found = named(path)
     if found.kind is Kind.DESCRIPTION:
         _show_robot(connection, found.paths[0], name, for_programs=for_programs)
         return ExitStatus.DONE
@@ -102,13 +102,13 @@ def _show(connection: Connection, place: str, name: str, *, for_programs: bool) 
             f"'{word}' is a scenario, not a recording or robot description: 'tftool check {word}' "
             f"plays the scenario, 'tftool tree {word}' shows the frames."
         )
-        raise InputError(sentence) if Path(place).is_file() else UsageError(sentence)
+        raise InputError(sentence) if Path(path).is_file() else UsageError(sentence)
     if not found.kind.is_recording:
         raise UsageError(
             f"'{word}' is a {found.kind.value}, not a recording: 'tftool tree {word}' shows its "
             "frames."
         )
-    recording = open_from(connection, place, tells=False).recording
+    recording = open_from(connection, path, tells=False).recording
     assert recording is not None
     given = connection.robot.urdf is not None and recording.robot is not None
     notes = recording.robot.notes if given and recording.robot is not None else ()

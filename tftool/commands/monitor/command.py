@@ -87,7 +87,7 @@ class TrafficReport:
                 self.traffic.receive(now, [sample], info.authority or "", is_static=True)
 
     def measure(self, buffer: Buffer, now: Stamp) -> None:
-        """Record how old the newest transform of the frame pair is; ignore a static transform."""
+        """Record the age of the newest transform between the two frames, unless it is static."""
         if self.chain is None:
             return
         try:
@@ -350,7 +350,7 @@ class Arrivals:
     def measure(self, report: TrafficReport, moments: Stamps) -> None:
         """Record the age of the newest transform of the report's pair at each time in `moments`.
 
-        If every edge has one publisher whose stamps increase, the ages are computed from the
+        If every frame has one publisher whose stamps increase, the ages are computed from the
         arrival times of all messages. Otherwise, messages are received up to each time, which takes
         twice as long.
 
@@ -437,7 +437,7 @@ def run(connection: Connection, options: MonitorOptions) -> ExitStatus:
     """Run `tftool monitor`: report on a session or a recording."""
     if options.as_tf2 and options.for_programs:
         raise UsageError("--tf2 and --json are two output formats: choose one.")
-    frames, place = _sorted_out(options.words or [])
+    frames, place = _pair_and_source(options.words or [])
     try:
         is_recording = place is not None and named(place).kind.is_recording
     except InputError as error:
@@ -468,7 +468,7 @@ def run(connection: Connection, options: MonitorOptions) -> ExitStatus:
     return ExitStatus.DONE
 
 
-def _sorted_out(words: list[str]) -> tuple[tuple[str, str] | None, str | None]:
+def _pair_and_source(words: list[str]) -> tuple[tuple[str, str] | None, str | None]:
     """Split the words of the command line into a pair of frames and FROM, each None if missing.
 
     One word is FROM; two words are the target and the source frame; a third word is FROM.

@@ -76,19 +76,21 @@ def _check_words(connection: Connection, target: str, words: Sequence[str]) -> N
             )
 
 
-def _opened(connection: Connection, place: str | None, *, alone: bool, simulated: bool) -> Session:
+def _opened(
+    connection: Connection, scenario: str | None, *, alone: bool, simulated: bool
+) -> Session:
     """Open the session in which the node runs.
 
     Args:
         connection: Connection of the command.
-        place: Scenario to host; None for the running session or, if none runs, an empty world.
+        scenario: Scenario to host; None for the running session or, if none runs, an empty world.
         alone: Whether to host an empty world for the node.
         simulated: Whether a hosted world uses simulated time.
     """
     if alone:
         return open_empty_session(connection, simulated=simulated)
-    if place is not None:
-        return open_session(connection, place, simulated=simulated, head_start=0)
+    if scenario is not None:
+        return open_session(connection, scenario, simulated=simulated, head_start=0)
     return open_own_session(
         connection, simulated=simulated, because=SIMULATED if simulated else NO_SESSION
     )

@@ -84,14 +84,14 @@ def _as_object(link: Link, rates: dict[str, float]) -> dict[str, Any]:
     }
 
 
-def _written(found: dict[str, Any], *, verbose: bool) -> str:
+def _written(facts: dict[str, Any], *, verbose: bool) -> str:
     """Format the facts about a session as text, which fits the size of a terminal."""
     if not sys.stdout.isatty():
-        return "\n".join(line.plain for line in view.lines(found, verbose=verbose))
+        return "\n".join(line.plain for line in view.lines(facts, verbose=verbose))
 
     console = Console()
     lines = view.lines(
-        found,
+        facts,
         verbose=verbose,
         width=console.width,
         height=console.height,

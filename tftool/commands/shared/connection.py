@@ -205,31 +205,33 @@ class Connection:
         """Register a session or opened frames to be closed together with this `Connection`."""
         self._opened.append(opened)
 
-    def refuse_to_share(self, word: str | None) -> None:
-        """Raise UsageError for options such as --join if FROM is not a running session.
+    def refuse_to_share(self, source: str | None) -> None:
+        """Raise UsageError for options such as --join if `source` is not a running session.
 
         Files, and scenarios on simulated time, cannot be shared with other processes.
         """
-        if word is None and self.reach.only_reads:
+        if source is None and self.reach.only_reads:
             raise UsageError(
                 f"{self.place} is a running session, which does not store the past: leave out the "
                 "time, or record the session first ('tftool record')."
             )
-        self.refuse_to_join(word)
+        self.refuse_to_join(source)
         if self.needs_link:
             flags = ", ".join(flag for reach in REACHES for flag in reach.FLAGS)
             raise UsageError(
-                f"'{visible(word or HOME)}' is played on simulated time, which other "
+                f"'{visible(source or HOME)}' is played on simulated time, which other "
                 f"processes cannot share: leave out --join, {flags} and --read-only."
             )
 
-    def refuse_to_join(self, word: str | None) -> None:
-        """Raise UsageError for --join or a robot's address if FROM names a scenario to host."""
-        if word is not None and self.reach.only_reads:
-            raise UsageError(f"'{visible(word)}' and {self.place} are two sources: leave one out.")
-        if word is not None and self.mode is Mode.JOIN:
+    def refuse_to_join(self, source: str | None) -> None:
+        """Raise UsageError for --join or a robot's address if `source` is a scenario to host."""
+        if source is not None and self.reach.only_reads:
             raise UsageError(
-                f"'{visible(word)}' is a scenario, which cannot be joined: leave out --join, or "
+                f"'{visible(source)}' and {self.place} are two sources: leave one out."
+            )
+        if source is not None and self.mode is Mode.JOIN:
+            raise UsageError(
+                f"'{visible(source)}' is a scenario, which cannot be joined: leave out --join, or "
                 "leave out the scenario to join the running session."
             )
 
@@ -456,7 +458,7 @@ def _listening_bar(listen_for: float, look: "Look | None") -> "Iterator[Listenin
 
 
 @contextmanager
-def _bar(place: str) -> "Iterator[Bar | None]":
+def _bar(source: str) -> "Iterator[Bar | None]":
     """Yield a progress bar for reading a file; yield None without a terminal."""
     if not sys.stderr.isatty():
         yield None
@@ -464,7 +466,7 @@ def _bar(place: str) -> "Iterator[Bar | None]":
     from tftool.commands.shared.progress_bars import Bar
 
     # The end of a path distinguishes files; the whole path would not fit beside the bar.
-    short = place.rstrip("/").rpartition("/")[2][-_LONGEST_NAME:]
+    short = source.rstrip("/").rpartition("/")[2][-_LONGEST_NAME:]
     bar = Bar(f"Reading {visible(short)}")
     try:
         yield bar

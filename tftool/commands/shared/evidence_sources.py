@@ -84,17 +84,17 @@ def evidence_from(
     return evidence if heard is None else replace(evidence, headers=heard.headers())
 
 
-def rules_of(word: str | None) -> DoctorRules:
-    """Return the doctor's settings in a scenario or in the file beside a recording, if any.
+def rules_of(source: str | None) -> DoctorRules:
+    """Return the doctor's settings in the scenario `source`, or in a file beside a recording.
 
     Raises:
         InputError: If the file cannot be read.
     """
-    if word is None:
+    if source is None:
         return NO_RULES
-    found = named(word)
+    found = named(source)
     if found.kind is Kind.SCENARIO:
-        return scenario_named(word).doctor
+        return scenario_named(source).doctor
     rules, file = rules_beside(found.name)
     if file is not None:
         notice(f"Using the doctor's settings in {visible(str(file))}.")

@@ -216,9 +216,9 @@ def _scenario_to_host(
     return replace(scenario, expect=())
 
 
-def _refuse_files(word: str | None) -> None:
-    """Raise UsageError if FROM is a recording or a description: only a scenario can be hosted."""
-    found = None if word is None else named(word)
+def _refuse_files(source: str | None) -> None:
+    """Raise UsageError if `source` is a recording or description: only scenarios can be hosted."""
+    found = None if source is None else named(source)
     if found is not None and found.kind is not Kind.SCENARIO:
         shown = visible(found.name)
         raise UsageError(

@@ -23,31 +23,31 @@ def notice(sentence: str) -> None:
     _write(fitting(sentence))
 
 
-def complain(who: str, sentence: str) -> None:
+def complain(command: str, sentence: str) -> None:
     """Print an error of a command to stderr, with escaped control characters.
 
     Args:
-        who: Name of the command.
+        command: Name of the command.
         sentence: Text of the error.
     """
-    notice(f"{who}: {visible_lines(sentence.rstrip())}")
+    notice(f"{command}: {visible_lines(sentence.rstrip())}")
 
 
 def name_frames(
-    frames: Sequence[str], asked: Iterable[str | None], when: str = "", advice: str = ""
+    frames: Sequence[str], requested: Iterable[str | None], when: str = "", advice: str = ""
 ) -> bool:
     """Print the existing frames if a requested frame does not exist.
 
     Args:
         frames: Names of the existing frames.
-        asked: Names of the requested frames; None is ignored.
+        requested: Names of the requested frames; None is ignored.
         when: Text after "frames", such as "so far" if more frames may follow.
         advice: Sentence to append.
 
     Returns:
         Whether the existing frames were printed.
     """
-    missing = [frame for frame in asked if frame is not None and frame not in frames]
+    missing = [frame for frame in requested if frame is not None and frame not in frames]
     if not frames and not when:
         notice("There are no frames at all.")
     if not missing or not frames:
@@ -118,13 +118,13 @@ def tell_record(record: "LogRecord", *, label: str = "") -> None:
 class FoldedLog:
     """Printer of a world's log, which prints equal messages once and counts the repetitions."""
 
-    def __init__(self, *, whole: bool = False) -> None:
+    def __init__(self, *, prints_all: bool = False) -> None:
         """Start with all counts at zero.
 
         Args:
-            whole: Whether to print every message, also repeated ones.
+            prints_all: Whether to print every message, also repeated ones.
         """
-        self._whole = whole
+        self._whole = prints_all
         self._more: dict[tuple[str, str, str], tuple[LogRecord, int]] = {}
 
     def tell(self, record: "LogRecord") -> None:

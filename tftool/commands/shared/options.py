@@ -204,44 +204,46 @@ MANY = "Many recordings"
 
 
 def option(
-    words: str,
+    help_text: str,
     *names: str,
     default: Any = None,
     metavar: str | None = None,
     panel: str | None = None,
-    **more: Any,
+    **further: Any,
 ) -> Any:
     """Return the declaration of a command's option, to be the value of a field.
 
     Args:
-        words: Text of the help.
+        help_text: Text of the help.
         names: Names of the option; if none are given, the name is made from the field's name.
         default: Value if the option is not given; `...` for an option that must be given, and for
             an option inside `Annotated`.
         metavar: Name of the value in the help.
         panel: Heading above the option in the help; None for the usual heading.
-        more: Further arguments of `typer.Option`.
+        further: Further arguments of `typer.Option`.
     """
-    return typer.Option(default, *names, metavar=metavar, rich_help_panel=panel, help=words, **more)
+    return typer.Option(
+        default, *names, metavar=metavar, rich_help_panel=panel, help=help_text, **further
+    )
 
 
-def flag(words: str, *names: str, panel: str | None = None) -> Any:
+def flag(help_text: str, *names: str, panel: str | None = None) -> Any:
     """Return the declaration of an option without a value, which is True if given; see `option`."""
-    return option(words, *names, default=False, panel=panel)
+    return option(help_text, *names, default=False, panel=panel)
 
 
-def argument(words: str, *, default: Any = None, metavar: str, **more: Any) -> Any:
+def argument(help_text: str, *, default: Any = None, metavar: str, **further: Any) -> Any:
     """Return the declaration of an argument, a word without an option's name; see `option`."""
-    return typer.Argument(default, metavar=metavar, help=words, **more)
+    return typer.Argument(default, metavar=metavar, help=help_text, **further)
 
 
-def output_file(words: str) -> Any:
-    """Return the declaration of a command's option `-o FILE`; `words` are its help."""
-    return option(words, "-o", "--output", metavar="FILE", panel=OUTPUT)
+def output_file(help_text: str) -> Any:
+    """Return the declaration of a command's option `-o FILE`; `help_text` is its help."""
+    return option(help_text, "-o", "--output", metavar="FILE", panel=OUTPUT)
 
 
 def seconds_option(
-    words: str,
+    help_text: str,
     *names: str,
     default: Any = None,
     check: Callable[[float | None], float | None] = positive,
@@ -249,28 +251,30 @@ def seconds_option(
 ) -> Any:
     """Return the declaration of an option that is typed in seconds and stored in nanoseconds.
 
-    `words` must name the default, because typer would show the default in nanoseconds.
+    `help_text` must name the default, because typer would show the default in nanoseconds.
 
     Args:
-        words: Text of the help.
+        help_text: Text of the help.
         names: Names of the option; if none are given, the name is made from the field's name.
         default: Value in nanoseconds if the option is not given; see `option`.
         check: Check of the number of seconds.
         panel: Heading above the option in the help; None for the usual heading.
     """
     more: dict[str, Any] = {"parser": duration(check), "show_default": False}
-    return option(words, *names, default=default, metavar="SECONDS", panel=panel, **more)
+    return option(help_text, *names, default=default, metavar="SECONDS", panel=panel, **more)
 
 
-def moment_option(words: str, *names: str, default: Any = None, panel: str | None = WHEN) -> Any:
-    """Return the declaration of an option whose value is a time; `words` are its help."""
-    return option(words, *names, default=default, metavar="MOMENT", panel=panel, parser=moment)
+def moment_option(
+    help_text: str, *names: str, default: Any = None, panel: str | None = WHEN
+) -> Any:
+    """Return the declaration of an option whose value is a time; `help_text` is its help."""
+    return option(help_text, *names, default=default, metavar="MOMENT", panel=panel, parser=moment)
 
 
-def decimals(words: str, *, default: int) -> Any:
-    """Return the declaration of a command's option `--precision N`; `words` are its help."""
+def decimals(help_text: str, *, default: int) -> Any:
+    """Return the declaration of a command's option `--precision N`; `help_text` is its help."""
     names = "--precision", "-p"
-    return option(words, *names, default=default, metavar="N", panel=OUTPUT, min=0, max=17)
+    return option(help_text, *names, default=default, metavar="N", panel=OUTPUT, min=0, max=17)
 
 
 Target = Annotated[

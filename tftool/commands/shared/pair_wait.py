@@ -114,14 +114,14 @@ class PairWait:
             else:
                 return
 
-    async def _available(self, then: Stamp) -> None:
-        """Wait until the transform can be looked up at the time `then`."""
+    async def _available(self, time: Stamp) -> None:
+        """Wait until the transform can be looked up at `time`."""
         pair = self.pair
         if pair.fixed_frame is None:
-            await self.world.wait_for_transform(pair.target, pair.source, then)
+            await self.world.wait_for_transform(pair.target, pair.source, time)
         else:
             await self.world.wait_for_transform_full(
-                pair.target, LATEST, pair.source, then, pair.fixed_frame
+                pair.target, LATEST, pair.source, time, pair.fixed_frame
             )
 
     async def _tell_reasons(self, pace: Clock) -> None:

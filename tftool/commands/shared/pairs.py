@@ -78,12 +78,12 @@ def _unknown(frame: str) -> str:
     return f'Invalid frame ID "{frame}" - frame does not exist'
 
 
-def refuse_file_as_frame(target: str, source: str, place: str | None) -> None:
+def refuse_file_as_frame(target: str, source: str, from_word: str | None) -> None:
     """Raise UsageError if `target` or `source` is a file, not a frame.
 
     This mistake happens if one of the three words TARGET SOURCE FROM is missing.
     """
-    if place is not None:
+    if from_word is not None:
         return
     for word in (target, source):
         path = Path(word)
@@ -94,31 +94,33 @@ def refuse_file_as_frame(target: str, source: str, place: str | None) -> None:
             )
 
 
-def pairs_and_place(words: list[str], given: list[str]) -> tuple[list[tuple[str, str]], str | None]:
+def pairs_and_place(
+    words: list[str], pair_values: list[str]
+) -> tuple[list[tuple[str, str]], str | None]:
     """Parse a command line into pairs of frames and FROM; FROM is None if not given.
 
     Args:
         words: TARGET SOURCE [FROM], or [FROM] alone.
-        given: Values of --pair, TARGET:SOURCE.
+        pair_values: Values of --pair, TARGET:SOURCE.
 
     Raises:
         UsageError: If the words have another form, or a value of --pair is not TARGET:SOURCE.
     """
-    if len(words) > (1 if given else 3):
+    if len(words) > (1 if pair_values else 3):
         raise UsageError(
             f"With --pair, FROM is the only word, but there are {len(words)}: leave out TARGET and "
             "SOURCE."
-            if given
+            if pair_values
             else f"expected TARGET SOURCE [FROM], not {len(words)} words."
         )
-    if not given:
+    if not pair_values:
         if len(words) < 2:
             return [], words[0] if words else None
         place = words[2] if len(words) > 2 else None
         refuse_file_as_frame(words[0], words[1], place)
         return [(words[0], words[1])], place
     pairs = []
-    for text in given:
+    for text in pair_values:
         target, colon, source = text.partition(":")
         if not (colon and target and source):
             raise UsageError(f"--pair takes TARGET:SOURCE, such as map:base_link, not '{text}'.")

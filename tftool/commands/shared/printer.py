@@ -21,11 +21,11 @@ def line_width() -> int | None:
     return shutil.get_terminal_size().columns if sys.stdout.isatty() else None
 
 
-def write(what: "RenderableType", *, end: str = "\n", is_wide: bool = True) -> None:
+def write(renderable: "RenderableType", *, end: str = "\n", is_wide: bool = True) -> None:
     """Print a renderable of rich to stdout, followed by `end`.
 
     Args:
-        what: Renderable to print.
+        renderable: Renderable to print.
         end: Text after the renderable.
         is_wide: Whether lines may be up to `LOG_WIDTH` long if stdout is not a terminal, so that a
             log file has each sentence in one line.
@@ -37,7 +37,7 @@ def write(what: "RenderableType", *, end: str = "\n", is_wide: bool = True) -> N
         console.width = LOG_WIDTH
     # Not written by rich, which ends the process with 1 if the pipe's reader (`| head`) ended.
     with console.capture() as captured:
-        console.print(what, end=end)
+        console.print(renderable, end=end)
     for line in captured.get().splitlines():
         sys.stdout.write(f"{line.rstrip()}\n")
 

@@ -40,13 +40,13 @@ _REDRAWN = seconds(0.1)
 class Bar:
     """Progress bar on stderr; shown after half a second, and only on a terminal."""
 
-    def __init__(self, what: str) -> None:
+    def __init__(self, title: str) -> None:
         """Prepare the bar without showing it.
 
         Args:
-            what: Text in front of the bar, without control characters.
+            title: Text in front of the bar, without control characters.
         """
-        self._what = what
+        self._what = title
         self._clock = WallClock()
         self._since = self._drawn = self._clock.now()
         self._progress: Progress | None = None

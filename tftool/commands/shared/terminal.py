@@ -40,7 +40,7 @@ def left_while_stopped(leave: Callable[[], object], enter: Callable[[], object])
         return
     before = signal.getsignal(number)
     if before is signal.SIG_DFL:
-        signal.signal(number, _asked)
+        signal.signal(number, _stop_soon)
     _layers.append((leave, enter))
     try:
         yield
@@ -50,7 +50,7 @@ def left_while_stopped(leave: Callable[[], object], enter: Callable[[], object])
             signal.signal(number, before)
 
 
-def _asked(number: int, frame: FrameType | None) -> None:
+def _stop_soon(number: int, frame: FrameType | None) -> None:
     """Handle SIGTSTP (Ctrl-Z): stop the process, between two callbacks of the event loop."""
     try:
         loop = asyncio.get_running_loop()

@@ -17,20 +17,20 @@ from tftool.geometry.notation.static_arguments import StaticArguments, advice, p
 from tftool.world.link.session_world import Session
 
 
-def publish(connection: Connection, said: StaticArguments, *, spin: bool) -> None:
+def publish(connection: Connection, arguments: StaticArguments, *, spin: bool) -> None:
     """Publish a static transform and print it; with `spin`, publish until interrupted.
 
     Raises:
         UsageError: If buffers would reject the transform, or --read-only was given.
     """
     connection.refuse_read_only("publish")
-    if said.parent == said.child:
+    if arguments.parent == arguments.child:
         raise UsageError(
-            f"cannot publish static transform from '{said.parent}' to '{said.child}': "
+            f"cannot publish static transform from '{arguments.parent}' to '{arguments.child}': "
             "child_frame_id cannot equal frame_id."
         )
     session = open_empty_session(connection)
-    session.run(_published(session, said, spin))
+    session.run(_published(session, arguments, spin))
 
 
 async def _published(session: Session, said: StaticArguments, spin: bool) -> None:

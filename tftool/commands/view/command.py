@@ -123,16 +123,16 @@ def _robot_of(connection: Connection, frames: Frames, meshes: Sequence[Path]) ->
     return ShownRobot(robot, MeshFolders(described, meshes), rest=rest)
 
 
-def _alive(
-    connection: Connection, found: Found, meshes: Sequence[Path]
+def _published(
+    connection: Connection, description: Found, meshes: Sequence[Path]
 ) -> "tuple[Session, ShownRobot]":
     """Publish a robot in a new session.
 
     Returns:
         The session, and the robot for the page, with sliders that move the joints.
     """
-    connection.refuse_to_share(found.name)
-    robot = load_described(found, connection.robot)
+    connection.refuse_to_share(description.name)
+    robot = load_described(description, connection.robot)
     joints = connection.robot.joints
     robot.positions(joints)
     for note in (*robot.notes, *beyond_limits(robot, joints)):
@@ -140,9 +140,9 @@ def _alive(
     world = World(connection.providers.wall_clock())
     RobotStatePublisher(world, robot=robot, publish_frequency=0.0)
     mover = JointStatePublisher(world, robot=robot, positions=joints, rate=30.0)
-    name = f"robot description '{visible(found.name)}'"
+    name = f"robot description '{visible(description.name)}'"
     session = Session(world, True, name, partial(live_shared, world, None, "host"), tell=tell_news)
-    return session, ShownRobot(robot, MeshFolders(found.paths[0], meshes), mover)
+    return session, ShownRobot(robot, MeshFolders(description.paths[0], meshes), mover)
 
 
 def _let_drive(session: Session, page: PageServer) -> None:
@@ -275,7 +275,7 @@ def run(connection: Connection, options: ViewOptions) -> ExitStatus:
         return ExitStatus.DONE
     shown = None
     if found is not None and found.kind is Kind.DESCRIPTION:
-        session, shown = _alive(connection, found, options.meshes or [])
+        session, shown = _published(connection, found, options.meshes or [])
     else:
         session = open_session(connection, options.place, cache_time=options.cache_time)
     page = serve(session.world, name=session.name)
