@@ -11,8 +11,8 @@ def test_a_lookup_between_two_samples_is_refused_with_the_wait_it_needs(tftool):
     assert result.status == 4
     lines = result.out.splitlines()
     assert lines[0] == (
-        "turtle1 in turtle2 at 1005.000000000: refused, would answer 8 ms later; asked as a robot "
-        "would have at that moment, and echo, which knows all of it, answers"
+        "turtle1 in turtle2 at 1005.000000000: refused, would answer 8 ms later; a robot has only "
+        "the data received by then, echo has all data and answers"
     )
     assert "REFUSES: newest is 8 ms too old" in result.out
     assert "cure   a timeout of 10 ms (least: 8.0)" in result.out
@@ -22,7 +22,7 @@ def test_a_question_before_a_frame_begins_is_told_what_to_ask_for(tftool):
     result = tftool("explain", "turtle2", "turtle1", "turtles", "--at", "0.5")
     assert result.status == 4
     # turtle2 is spawned after a second, so `echo` refuses too.
-    assert result.out.splitlines()[0].endswith("asked as a robot would have at that moment")
+    assert result.out.splitlines()[0].endswith("a robot has only the data received by then")
     assert "turtle2 in world begins 508 ms after the question, at 1001.008" in result.out
     assert "cure   ask for 1001.008 or later" in result.out
     assert "pruned" not in result.out

@@ -489,4 +489,4 @@ def test_transforms_of_a_type_that_no_listener_reads_are_said_to_be_of_no_use():
         console = Console(width=200)
         with console.capture() as printed:
             console.print(render(explained))
-        assert ("answers here, but no listener receives it" in printed.get()) is told
+        assert ("answers here, but no listener receives these transforms" in printed.get()) is told

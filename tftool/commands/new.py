@@ -45,7 +45,9 @@ class NewOptions(Command, shares=False):
     """
 
     name: str = argument(
-        "Name of the package to make, or a path that ends in it.", default=..., metavar="PACKAGE"
+        "Name of the package to make, or a path that ends in the name.",
+        default=...,
+        metavar="PACKAGE",
     )
     example: str = option(
         f"Which step of the tutorial: {', '.join(EXAMPLES)}.",

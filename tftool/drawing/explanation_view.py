@@ -22,7 +22,7 @@ _WORDS = {
     LinkVerdict.ANSWERS: "answers",
     LinkVerdict.FORWARD: "newest is {} too old",
     LinkVerdict.BACKWARD: "begins {} after the question",
-    LinkVerdict.PRUNED: "the sample for it was dropped; the rest begins {} later",
+    LinkVerdict.PRUNED: "the needed sample was dropped; the oldest sample left is {} later",
 }
 
 
@@ -92,15 +92,15 @@ def _headline(found: Explanation) -> Text:
         when = f"at {_since(found.stamp, base)} s"
     line = Text(visible(f"{found.source} in {found.target} {when}: "))
     if found.cause is Cause.UNREAD:
-        return line.append("answers here, but no listener receives it", "yellow")
+        return line.append("answers here, but no listener receives these transforms", "yellow")
     if found.available:
         return line.append("answers", "green")
     line.append("refused", "bold red").append(_later(found))
     if found.failed is not None:
         return line
     # A live listener has only the samples received so far; `echo` has the whole recording.
-    line.append("; asked as a robot would have at that moment")
-    return line.append(", and echo, which knows all of it, answers" if found.in_whole else "")
+    line.append("; a robot has only the data received by then")
+    return line.append(", echo has all data and answers" if found.in_whole else "")
 
 
 def _later(found: Explanation) -> str:
@@ -195,9 +195,11 @@ def _held(link: TracedLink, base: Stamp) -> str:
 
 def _refusal(link: TracedLink) -> str:
     if link.verdict is LinkVerdict.NO_DATA:
-        return "one sample answers for its own stamp only" if link.count else "nothing has come yet"
+        return (
+            "one sample answers for its own stamp only" if link.count else "no sample received yet"
+        )
     if abs(link.short_by) > SIMULATED_BELOW:
-        return f"{span(link.short_by)} apart: another clock"
+        return f"{span(link.short_by)} apart: stamps of another clock"
     return _WORDS[link.verdict].format(span(link.short_by))
 
 

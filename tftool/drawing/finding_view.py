@@ -227,7 +227,7 @@ def summary(diagnosis: Diagnosis) -> str:
     # The first finding among those with the worst severity.
     worst = min(told, key=lambda one: one.severity.rank)
     notes = f" ({count(len(quiet), 'more note')}: --verbose)" if quiet else ""
-    calm = "" if worst.severity is not Severity.NOTE else "If all works, leave it so. "
+    calm = "" if worst.severity is not Severity.NOTE else "If everything works, change nothing. "
     return (
         f"{counted(told)}{notes}. {calm}`tftool doctor --explain {worst.id}` tells more; "
         "`--markdown` prints this for an issue."

@@ -111,7 +111,7 @@ def pieces(
     rows = [_row(branch, names, guides, moving) for branch in branches(forest)]
     yield from _table(rows, HEADINGS if moving is None else ROBOT_HEADINGS)
     if marks:
-        yield f"\n\nWhat is in brackets is wrong: {advice(marks)}", "yellow"
+        yield f"\n\nThe ids in brackets name problems: {advice(marks)}", "yellow"
 
 
 def advice(marks: Marks) -> str:

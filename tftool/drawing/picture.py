@@ -393,7 +393,7 @@ class _Sheet:
             parent = self.forest.info[name].parent or ""
             notes.append(
                 f"A loop: {fit(visible(name), FACT_SIZE, 200)} hangs from "
-                f"{fit(visible(parent), FACT_SIZE, 200)}, which hangs from it; "
+                f"{fit(visible(parent), FACT_SIZE, 200)}, which is below it; "
                 "that link is not drawn"
             )
         return notes

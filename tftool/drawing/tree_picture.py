@@ -117,13 +117,13 @@ def mermaid(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
     text = _flowchart(snapshot, forest, full=True)
     note = _left_out(forest)
     if len(text) > _MERMAID_TEXT:
-        note = f"links carry their rate only: mermaid takes no longer text. {note}".strip()
+        note = f"links show only their rate, because Mermaid limits the text. {note}".strip()
         text = _flowchart(snapshot, forest, full=False, note=note)
     most = len(forest.children)
     while len(text) > _MERMAID_TEXT:
         most = most * 3 // 4
         forest = grow(snapshot, most=most)
-        note = f"links carry their rate only: mermaid takes no longer text. {_left_out(forest)}"
+        note = f"links show only their rate, because Mermaid limits the text. {_left_out(forest)}"
         text = _flowchart(snapshot, forest, full=False, note=note)
     return Drawing(text, forest.left_out, note)
 
@@ -231,7 +231,7 @@ def _picture_note(left_out: int) -> str:
         return ""
     return (
         f"the picture shows {MOST_DRAWN} frames and leaves out {left_out}, "
-        "those farthest from their root; dot and json hold them all"
+        "those farthest from their root; dot and json contain all frames"
     )
 
 

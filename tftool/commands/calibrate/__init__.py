@@ -41,7 +41,8 @@ class CalibrateOptions(Command, shares=False, poses=True):
     time_only: bool = flag("Measure only the clock offset, without the mount.")
     scale: bool = flag("Also estimate a factor for the translations of the first motion.")
     check: bool = flag(
-        "Compare the published mount with the result; exit status 1 outside the interval."
+        "Compare the published mount with the result; the exit status is 1 if the published mount "
+        "is outside of the interval."
     )
     urdf: Path | None = option(
         "Robot description that contains the mount.", "--urdf", metavar="FILE", panel=MOUNT

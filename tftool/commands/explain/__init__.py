@@ -35,13 +35,13 @@ class ExplainOptions(Command, looks_only=True, recordings=True, descriptions=Tru
     at: AtOption = None
     message: str = option(
         "Look up at the stamp of a message of this topic, with the data received until the message "
-        "arrived. The message is the one nearest to MOMENT or --at, or else the first.",
+        "arrived: the message nearest to MOMENT or --at; without a time, the first message.",
         default="",
         metavar="TOPIC[@MOMENT]",
     )
     asked_at: At | None = moment_option(
-        "Log time at which the listener looks up; if not given, the arrival of the message, or "
-        "without --message the time of --at.",
+        "Time on the log's clock at which the listener looks up; if not given, the arrival of the "
+        "message; without --message, the time of --at.",
         panel=None,
     )
     cache_time: CacheTime = None

@@ -37,7 +37,7 @@ class MonitorOptions(Command, looks_only=True, recordings=True):
         "Time between two reports: 1 on a terminal, 10 elsewhere."
     )
     as_tf2: bool = flag(
-        "Print the numbers that tf2_monitor prints, with the same errors.", "--tf2", panel=OUTPUT
+        "Print the same numbers as tf2_monitor, including its errors.", "--tf2", panel=OUTPUT
     )
     ascii_only: Ascii = False
     light: Light = False

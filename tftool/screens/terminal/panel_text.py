@@ -411,7 +411,7 @@ LOOKING = """\
  Shift+Arrow  move the picture (or drag it)
  p            3-D picture, or the view from above; in 3-D:
               Shift+Arrow turns, w changes the view, y keeps the picked
-              frame in the middle, < > go farther and nearer, a shows all
+              frame in the middle, < > zoom out and in, a shows all
 
  [ ]          back and forward in time by 0.1 s
  { }          by a second

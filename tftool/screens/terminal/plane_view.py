@@ -202,7 +202,7 @@ class PlaneView:
         if hidden:
             names = ", ".join(one.fixed for one in hidden[:5])
             more = f" and {len(hidden) - 5} more" if len(hidden) > 5 else ""
-            words.append(f"not joined to {picture.fixed}: {names}{more}")
+            words.append(f"not connected to {picture.fixed}: {names}{more}")
         if picture.nowhere:
             names = ", ".join(picture.nowhere[:5])
             more = f" and {len(picture.nowhere) - 5} more" if len(picture.nowhere) > 5 else ""

@@ -32,7 +32,7 @@ _MOVES: Mapping[str, Callable[[OrbitCamera], None]] = {
 """Keys of this panel, which have no other meaning on a screen with it."""
 
 SPACE_KEYS = """\
- p            the picture, or as before
+ p            show or hide the 3-D picture
  Shift+Arrow  turn the picture (or drag with the mouse)
  < >          zoom out, zoom in (also the wheel)
  w            another view: orbit, top, front, side
