@@ -83,6 +83,19 @@ def test_what_was_handed_out_before_stays_as_it_was():
     assert np.array_equal(held.poses[:, 0], x)
 
 
+def test_the_memory_of_a_dropped_buffer_does_not_wait_for_the_collector():
+    buffer = filled(Buffer(10**18))
+    buffer.lookup_transform("a", "b", NEWEST // 2)
+    dropped = weakref.ref(buffer)
+
+    gc.disable()
+    try:
+        del buffer
+        assert dropped() is None
+    finally:
+        gc.enable()
+
+
 def test_no_sample_is_lost_where_one_thread_asks_and_another_inserts():
     buffer, links, more = Buffer(10**18), 12, 60
     stamps = np.arange(1, MANY + 1) * PERIOD

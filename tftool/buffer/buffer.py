@@ -2,6 +2,7 @@
 
 import struct
 from collections.abc import Callable, Iterable
+from functools import partial
 from itertools import pairwise
 from typing import TYPE_CHECKING, Final, Literal, NamedTuple, TypeAlias
 
@@ -143,7 +144,8 @@ class Buffer(Door):
         self._paths = self._solver.paths
         self._requests = Requests(self._solver.examine)
         self._pending = self._requests.pending
-        self._report = report or self._log_failure
+        # Not a method: the buffer would refer to itself, and its memory would be freed late.
+        self._report = report or partial(_log_failure, self._log)
         self._listeners: Listeners[TransformStamped, bool, str] = Listeners(self._report)
         self._listening = self._listeners.registered
 
@@ -267,9 +269,6 @@ class Buffer(Door):
         if self._pending:
             for failure in self._requests.changed(*changed):
                 self._report("", failure)
-
-    def _log_failure(self, owner: str, failure: Exception) -> None:
-        self._log("ERROR", listener_text(owner, failure))
 
     def set_transforms(
         self,
@@ -911,3 +910,8 @@ def lend(buffer: Buffer, child: str, other: Buffer, until: Stamp) -> bool:
     other._tree.note(there, parent, frame.authority, origin)
     other._solver.drop_paths()
     return True
+
+
+def _log_failure(log: Callable[[str, str], None], owner: str, failure: Exception) -> None:
+    """Log the exception of a listener as an error, with the name of the listener's owner."""
+    log("ERROR", listener_text(owner, failure))
