@@ -99,6 +99,8 @@ class PlayerScreen(TreeWatch, inherit_bindings=False):
         setting: Options of the screen.
     """
 
+    keys_help = KEYS
+
     CSS = f"""{FRAME_CSS}
     #timeline {{ height: {TIMELINE}; }}
     #topics {{ width: {TOPICS}; height: 1fr; }}
@@ -120,10 +122,6 @@ class PlayerScreen(TreeWatch, inherit_bindings=False):
         self._findings = marks
         self._topics = topics
         self._moments = moments
-
-    def key_help(self) -> str:
-        """Return the help for the keys of this screen."""
-        return KEYS
 
     def compose(self) -> ComposeResult:
         """Create the panels of this screen."""

@@ -81,6 +81,8 @@ class RobotApp(PanelApp):
         missing: Sentences on why some shapes are not drawn.
     """
 
+    keys_help = KEYS
+
     CSS = f"""{FRAME_CSS}
     #space {{ width: 1fr; height: 1fr; display: none; }}
     """
@@ -125,10 +127,6 @@ class RobotApp(PanelApp):
         self._first = 0
 
     # Building
-
-    def key_help(self) -> str:
-        """Return the help for the keys of this screen."""
-        return KEYS
 
     def compose(self) -> ComposeResult:
         """Create the panels of this screen."""

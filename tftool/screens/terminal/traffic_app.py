@@ -45,6 +45,8 @@ class TrafficWatch(PanelApp):
         setting: Options of the screen.
     """
 
+    keys_help = KEYS
+
     CSS = f"""{FRAME_CSS}
     #frames {{ height: 1fr; }}
     """
@@ -64,10 +66,6 @@ class TrafficWatch(PanelApp):
         self._began = world.clock.now()
         self._order = "chain" if chain is not None else "name"
         self._first = 0
-
-    def key_help(self) -> str:
-        """Return the help for the keys of this screen."""
-        return KEYS
 
     def compose(self) -> ComposeResult:
         """Create the panels of this screen."""

@@ -122,6 +122,8 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         solids: Shapes of a robot; None until a robot description arrives.
     """
 
+    keys_help = KEYS
+
     CSS = f"""{FRAME_CSS}
     #rows, #space {{ height: 1fr; }}
     .tiny #rows {{ border: none; }}
@@ -158,10 +160,6 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         self.redraw()
 
     # Building
-
-    def key_help(self) -> str:
-        """Return the help for the keys of this screen."""
-        return KEYS
 
     def compose(self) -> ComposeResult:
         """Create the panels of this screen."""

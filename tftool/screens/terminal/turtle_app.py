@@ -121,6 +121,8 @@ class TurtleApp(PanelApp):
         self.scene = scene
         self.chosen: str | None = None
         self.press_key = press
+        chooses = self.setting.scenarios is not None
+        self.keys_help = keys.key_help(drives=press is not None, chooses=chooses)
         self._idle = idle
         self._offered: Sequence[tuple[str, str]] = ()
         self._offer = 0
@@ -217,12 +219,6 @@ class TurtleApp(PanelApp):
             self._idle.touch()
         self.scene.look()
         self._draw()
-
-    def key_help(self) -> str:
-        """Return the help for the keys that work on this screen."""
-        return keys.key_help(
-            drives=self.press_key is not None, chooses=self.setting.scenarios is not None
-        )
 
     def redraw(self) -> None:
         """Draw the current state again."""

@@ -283,6 +283,9 @@ Panel { border-subtitle-color: $foreground; }
 class PanelApp(WorldApp):
     """Screen of panels in tftool's colours, light or dark, with a panel of key help."""
 
+    keys_help: str
+    """Text of the key help, with one line for each key."""
+
     KEYS_WIDTH: ClassVar[int] = 68
     """Width in cells of the panel with the key help."""
 
@@ -337,15 +340,11 @@ class PanelApp(WorldApp):
         """Move the key help to the middle of the screen."""
         self._place_keys(event.size)
 
-    def key_help(self) -> str:
-        """Return the text of the key help, with one line for each key."""
-        raise NotImplementedError
-
     def _place_keys(self, size: Size) -> None:
         panel = self.panel("keys")
         if not panel.display:
             return
-        lines = self.key_help().splitlines()
+        lines = self.keys_help.splitlines()
         width, height = size
         if len(lines) > height - 2:
             lines = [line for line in lines if line]
