@@ -64,9 +64,13 @@ def ros1_definition(name: str, interfaces: Interfaces = INTERFACES) -> str:
         InputError: If the type is unknown, or has no equivalent in ROS 1.
     """
     full = full_name(name)
-    texts = [_ros1_text(interfaces, full)]
+
+    def nested(field: FieldDefinition) -> str:
+        return f"{short(field.type)}{_brackets(field)}"
+
+    texts = [_ros1_text(interfaces, full, nested)]
     texts += [
-        f"{_LINE}\nMSG: {short(part)}\n{_ros1_text(interfaces, part)}"
+        f"{_LINE}\nMSG: {short(part)}\n{_ros1_text(interfaces, part, nested)}"
         for part in _parts(interfaces, full)
         if part not in _MOMENTS
     ]
@@ -78,20 +82,8 @@ def ros1_md5(name: str, interfaces: Interfaces = INTERFACES) -> str:
 
     Source: wiki.ros.org/ROS/Technical%20Overview, and `roslib.gentools.compute_md5_text`.
     """
-    full = full_name(name)
-    structure = interfaces.structure(full)
-    lines = [f"{kind} {own}={value}" for own, kind, value in structure.constants]
-    if full == _HEADER and all(field.name != "seq" for field in structure.fields):
-        lines.append("uint32 seq")
-    for field in structure.fields:
-        kind = _MOMENTS.get(field.type)
-        if kind is None and field.type in PRIMITIVES:
-            kind = _ros1_name(full, field)
-        if kind is not None:
-            lines.append(f"{kind}{_brackets(field)} {field.name}")
-        else:
-            lines.append(f"{ros1_md5(field.type, interfaces)} {field.name}")
-    return hashlib.md5("\n".join(lines).encode(), usedforsecurity=False).hexdigest()
+    text = _ros1_text(interfaces, full_name(name), lambda field: ros1_md5(field.type, interfaces))
+    return hashlib.md5(text.encode(), usedforsecurity=False).hexdigest()
 
 
 @cache
@@ -135,16 +127,18 @@ def _parts(interfaces: Interfaces, full: str) -> list[str]:
     return list(found)
 
 
-def _ros1_text(interfaces: Interfaces, full: str) -> str:
+def _ros1_text(interfaces: Interfaces, full: str, nested: Callable[[FieldDefinition], str]) -> str:
+    """Return a type's definition in ROS 1's form; `nested` writes the type of a nested field."""
     structure = interfaces.structure(full)
     lines = [f"{kind} {own}={value}" for own, kind, value in structure.constants]
     if full == _HEADER and all(field.name != "seq" for field in structure.fields):
         lines.append("uint32 seq")
     for field in structure.fields:
-        kind = _MOMENTS.get(field.type)
-        if kind is None:
-            kind = _ros1_name(full, field) if field.type in PRIMITIVES else short(field.type)
-        lines.append(f"{kind}{_brackets(field)} {field.name}")
+        if field.type in _MOMENTS or field.type in PRIMITIVES:
+            kind = _MOMENTS.get(field.type) or _ros1_name(full, field)
+            lines.append(f"{kind}{_brackets(field)} {field.name}")
+        else:
+            lines.append(f"{nested(field)} {field.name}")
     return "\n".join(lines)
 
 
