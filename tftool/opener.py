@@ -138,7 +138,8 @@ def open_frames(
         if until is not None and not isinstance(until, At) and not math.isinf(until):
             until = nanoseconds(until)
         return played(found, until, seconds(margin), cache_time, watch)
-    refuse_to_forget(found, cache_time)
+    if cache_time is not None:
+        raise UsageError(f"'{visible(found.name)}' is read completely: leave out --cache-time.")
     from tftool.frames.frame_files import read_frames
 
     return read_frames(found, robot, recording, progress)
@@ -213,12 +214,6 @@ def refuse_beside_address(address: str, domain: int | None, given: Mapping[str, 
             f"'{visible(address)}' already names the robot: leave out --domain, "
             f"{', '.join(flag for one in REACHES for flag in one.FLAGS)} and --tls-*."
         )
-
-
-def refuse_to_forget(found: Found, cache_time: Duration | None) -> None:
-    """Raise UsageError for --cache-time if FROM is a file, which is always read completely."""
-    if cache_time is not None:
-        raise UsageError(f"'{visible(found.name)}' is read completely: leave out --cache-time.")
 
 
 def nanoseconds(time: float) -> Duration:

@@ -8,7 +8,7 @@ from tftool.base.errors import TransformException
 from tftool.base.plain_text import finite, short_duration, visible, visible_lines
 from tftool.base.stamps import FRAME_TIMEOUT, NANOSECONDS, Duration, Stamp, as_seconds
 from tftool.buffer.sample import TransformStamped
-from tftool.geometry.conversions import rpy_from_quaternion
+from tftool.geometry import quaternions
 from tftool.geometry.rigid import distance
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ def block(
         Lines, each with its newline.
     """
     pose = found.transform
-    rpy = rpy_from_quaternion(pose.rotation)
+    rpy = quaternions.rpy(pose.rotation)
     whole, rest = divmod(found.stamp, NANOSECONDS)
     lines = [
         f"At time {whole}.{rest}",
@@ -130,7 +130,7 @@ def as_object(found: TransformStamped, *, with_distance: bool = False) -> dict[s
     Numbers have full precision, the stamp is in whole nanoseconds, and NaN becomes null.
     """
     pose = found.transform
-    rpy = rpy_from_quaternion(pose.rotation)
+    rpy = quaternions.rpy(pose.rotation)
     result: dict[str, Any] = {
         "stamp_ns": found.stamp,
         "target": found.frame_id,

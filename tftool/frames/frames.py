@@ -31,6 +31,7 @@ class Frames:
     Attributes:
         kind: Kind of the source.
         name: Name of the source, such as "run.mcap" or "turtles".
+        recording: Recording that the frames were read from; None for other sources.
         found: Files that were read; None for a session.
         log: Log of all transforms in order of arrival, for a scenario or a session; else None.
     """
@@ -67,7 +68,7 @@ class Frames:
         self.log = log
         self._buffer = buffer
         self._span = span
-        self._recording = recording
+        self.recording = recording
         self._robot = robot
         self._notes = notes
 
@@ -84,8 +85,8 @@ class Frames:
 
     def close(self) -> None:
         """Close the files; data already read stays available."""
-        if self._recording is not None:
-            self._recording.close()
+        if self.recording is not None:
+            self.recording.close()
 
     @property
     def title(self) -> str:
@@ -103,28 +104,23 @@ class Frames:
     def buffer(self) -> Buffer:
         """Buffer with all frames, in which nothing is pruned."""
         if self._buffer is None:
-            self._buffer = Buffer() if self._recording is None else self._recording.buffer
+            self._buffer = Buffer() if self.recording is None else self.recording.buffer
         return self._buffer
-
-    @property
-    def recording(self) -> "Recording | None":
-        """Recording that the frames were read from; None for other sources."""
-        return self._recording
 
     @property
     def robot(self) -> "Robot | None":
         """Robot of the description or recording; None without a robot."""
-        return self._robot if self._recording is None else self._recording.robot
+        return self._robot if self.recording is None else self.recording.robot
 
     @property
     def start(self) -> Stamp | None:
         """First stamp, nanoseconds; None if all transforms are static."""
-        return self._recording.start if self._recording is not None else self._ends[0]
+        return self.recording.start if self.recording is not None else self._ends[0]
 
     @property
     def end(self) -> Stamp | None:
         """Last stamp, nanoseconds; None if all transforms are static."""
-        return self._recording.end if self._recording is not None else self._ends[1]
+        return self.recording.end if self.recording is not None else self._ends[1]
 
     @property
     def _ends(self) -> tuple[Stamp | None, Stamp | None]:
@@ -160,7 +156,7 @@ class Frames:
         """
         start, end = self.span
         received = 0
-        if self._recording is not None:
-            source = self._recording.source
+        if self.recording is not None:
+            source = self.recording.source
             received = source.end - source.start
         return checked_moment(at, self.title, start, end - start, received)

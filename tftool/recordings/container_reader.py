@@ -164,20 +164,24 @@ class Recorded:
 
         Odometry and PoseStamped messages are read as transforms if their topics are in `topics`.
         """
-        chosen = [n for n, one in enumerate(self._container.streams) if self._gives(one, topics)]
+        streams = self._container.streams
+        chosen = [
+            number
+            for number, stream in enumerate(streams)
+            if (_has_transforms(stream) if topics is None else stream.topic in topics)
+        ]
         table = Table(self._container.expected(chosen))
         cutters: dict[tuple[Layout, bool], Cutter] = {}
         of_stream: dict[int, AnyCutter] = {}
-        for number, stream in enumerate(self._container.streams):
-            if topics is not None and stream.topic not in topics:
-                continue
+        for number in chosen:
+            stream = streams[number]
             static = is_static(stream)
             if _is_tf(stream):
                 key = LAYOUTS[stream.encoding], static
                 if key not in cutters:
                     cutters[key] = cutter(table, *key)
                 of_stream[number] = cutters[key]
-            elif topics is not None or _has_transforms(stream):
+            else:
                 kind = short_type(stream.type)
                 try:
                     decode = decoder_of(kind, stream.encoding, stream.text, stream.topic)
@@ -198,10 +202,6 @@ class Recorded:
         for one in cutters.values():
             one.flush()
         return table.finished(self._senders)
-
-    def _gives(self, stream: Channel, topics: Collection[str] | None) -> bool:
-        """Whether a stream's messages must be read to return the transforms of `topics`."""
-        return _has_transforms(stream) if topics is None else stream.topic in topics
 
     def headers(
         self, topics: Collection[str] | None = None, progress: Progress | None = None

@@ -169,30 +169,26 @@ class Recording:
     @property
     def damage(self) -> tuple[str, ...]:
         """Return sentences about parts that could not be read; further reading may find more."""
-        return (*self.source.damage, *self._read_damage())
-
-    def _read_damage(self) -> tuple[str, ...]:
-        return self.transforms.damage if "transforms" in self.__dict__ else ()
+        read = self.transforms.damage if "transforms" in self.__dict__ else ()
+        return (*self.source.damage, *read)
 
     @cached_property
     def transforms(self) -> Transforms:
         """All transforms, as columns per edge (pair of parent and child)."""
+        found = None if self._kept is None or self._tf_topics else self._kept.load()
         if self._tf_topics:
-            chosen, names = transforms_on(self._readable, self._tf_topics, self._progress)
+            found, names = transforms_on(self._readable, self._tf_topics, self._progress)
             if names.colliding:
                 self._oddities[str(names)] += 1
-            return self._with_odometry_of(chosen)
-        found = None if self._kept is None else self._kept.load()
-        if found is None:
+        elif found is None:
             found = self._readable.transforms(progress=self._progress)
             # A damaged file is not cached, so that its damage is reported each time.
             if self._kept is not None and not self.source.damage and not found.damage:
                 self._kept.store(found)
-        return self._with_odometry_of(found)
-
-    def _with_odometry_of(self, found: Transforms) -> Transforms:
-        names = [topic.name for topic in self.odometry]
-        return joined(found, self._readable.transforms(names, self._progress)) if names else found
+        odometry = [topic.name for topic in self.odometry]
+        if not odometry:
+            return found
+        return joined(found, self._readable.transforms(odometry, self._progress))
 
     @cached_property
     def odometry(self) -> tuple[RecordedTopic, ...]:

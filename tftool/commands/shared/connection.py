@@ -478,14 +478,9 @@ def _tell(frames: Frames, *, notes: bool) -> None:
     """Print which files were skipped; with `notes`, also print notes about the frames."""
     for text in () if frames.found is None else frames.found.told():
         notice(visible(text))
-    if notes:
-        _tell_notes(frames)
-
-
-def _tell_notes(frames: Frames) -> None:
-    notes = frames.notes
-    most = _MOST_NOTES if frames.recording is not None else len(notes)
-    for text in notes[:most]:
+    told = frames.notes if notes else ()
+    most = _MOST_NOTES if frames.recording is not None else len(told)
+    for text in told[:most]:
         notice(visible(text))
-    if len(notes) > most:
-        notice(f"... and {len(notes) - most} more: 'tftool info {visible(frames.name)}'.")
+    if len(told) > most:
+        notice(f"... and {len(told) - most} more: 'tftool info {visible(frames.name)}'.")
