@@ -178,16 +178,14 @@ def write(
     _save(_figure(found, start, quantities, xy, dark, made), file, form)
 
 
-def write_panels(
-    drawn: Sequence[PlotPanel], title: str, file: BinaryIO, form: str, *, dark: bool = False
-) -> None:
+def write_panels(drawn: Sequence[PlotPanel], title: str, file: BinaryIO, form: str) -> None:
     """Write a figure of panels below a title to a file, in the format `form`, one of `FORMATS`.
 
     Raises:
         UsageError: If the extra `plot` is not installed.
     """
     made = _needed("matplotlib.figure").Figure
-    _save(_figure_of_panels(drawn, title, (), dark, made), file, form)
+    _save(_figure_of_panels(drawn, title, (), False, made), file, form)
 
 
 def _save(figure: "Figure", file: BinaryIO, form: str) -> None:

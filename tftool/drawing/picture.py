@@ -101,15 +101,14 @@ class Picture:
     title: str
 
 
-def lay_out(snapshot: Snapshot, *, most: int = MOST_DRAWN, stale: Collection[str] = ()) -> Picture:
-    """Return the picture of a snapshot's trees.
+def lay_out(snapshot: Snapshot, *, stale: Collection[str] = ()) -> Picture:
+    """Return the picture of a snapshot's trees, with at most `MOST_DRAWN` frames.
 
     Args:
         snapshot: Frames to draw.
-        most: Maximum number of frames to draw; the picture shows the number of omitted frames.
         stale: Frames that are not published any more; the cards of these frames show the age.
     """
-    forest = grow(snapshot, most=most)
+    forest = grow(snapshot, most=MOST_DRAWN)
     sheet = _Sheet(forest, _cards(forest, stale), down=True)
     if sheet.width > WIDE_ENOUGH:
         across = _Sheet(forest, _cards(forest, stale), down=False)

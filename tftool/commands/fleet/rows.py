@@ -32,6 +32,8 @@ class ColumnKind(Enum):
 
 SUFFIXES = (".jsonl", ".csv", ".parquet")
 
+_ROWS_AT_ONCE = 10_000
+
 
 class RowFile:
     """File of result rows; all rows of one recording are written at once.
@@ -201,11 +203,11 @@ class RowFile:
         self._growing.unlink()
 
 
-def _blocks(lines: BinaryIO, size: int = 10_000) -> Iterator[list[Row]]:
+def _blocks(lines: BinaryIO) -> Iterator[list[Row]]:
     block: list[Row] = []
     for line in lines:
         block.append(json.loads(line))
-        if len(block) == size:
+        if len(block) == _ROWS_AT_ONCE:
             yield block
             block = []
     if block:

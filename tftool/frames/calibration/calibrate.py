@@ -264,7 +264,7 @@ class _Solver:
             The estimate, the pairs of poses used, the parts of the mount that the motion
             determines, and the median error, metres.
         """
-        pairs = pairs_of(problem, 0.0)
+        pairs = pairs_of(problem)
         if pairs.largest < LEAST_TURN or len(pairs.turns_a) < 20:
             raise CalibrationRefused(
                 f"{problem.a.name} turns by {math.degrees(pairs.largest):.1f}° at most within ten "

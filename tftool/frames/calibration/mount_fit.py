@@ -324,6 +324,7 @@ def spread(fit: Fit, draws: int = 200, seed: int = 0) -> Floats:
 
 
 _PAIRS: Final = 4000
+_LONGEST: Final = 10.0  # seconds between the poses of a pair
 _SMALLEST, _LARGEST = np.radians(12.0), np.radians(150.0)
 """Limits of a pair's turn: smaller turns are mostly noise; near 180° the axis flips."""
 
@@ -349,15 +350,15 @@ class MotionPairs:
     largest: float
 
 
-def pairs_of(problem: Problem, offset: float, longest: float = 10.0) -> MotionPairs:
-    """Choose pairs of poses at most `longest` seconds apart; A turns at most 150° in between."""
-    places, turns, valid = problem.a.at(problem.times + offset)
+def pairs_of(problem: Problem) -> MotionPairs:
+    """Choose pairs of poses at most ten seconds apart; A turns at most 150° in between."""
+    places, turns, valid = problem.a.at(problem.times)
     known = np.flatnonzero(valid)
     dice = np.random.default_rng(0)
     first = dice.choice(known, 3 * _PAIRS)
-    later = problem.times[first] + dice.uniform(0.2, longest, len(first))
+    later = problem.times[first] + dice.uniform(0.2, _LONGEST, len(first))
     second = np.minimum(np.searchsorted(problem.times, later), len(valid) - 1)
-    kept = valid[second] & (problem.times[second] - problem.times[first] <= longest)
+    kept = valid[second] & (problem.times[second] - problem.times[first] <= _LONGEST)
     first, second = first[kept], second[kept]
 
     def moved(positions: Floats, rotations: Floats) -> tuple[Floats, Floats]:

@@ -12,7 +12,7 @@ from textual.content import Content
 from tftool.buffer.sample import Snapshot
 from tftool.drawing.space import OrbitCamera, SpaceFrame, SpacePicture
 from tftool.drawing.space_canvas import SpaceCanvas, Tones, corners_of
-from tftool.screens.terminal.frames_picture import Lookup, in_snapshot
+from tftool.screens.terminal.frames_picture import in_snapshot
 from tftool.screens.terminal.text_style import Look
 from tftool.screens.terminal.world_app import Panel
 
@@ -185,7 +185,6 @@ def frames_in_space(
     snapshot: Snapshot,
     fixed: str,
     ages: Mapping[str, float] | None = None,
-    lookup: Lookup | None = None,
 ) -> tuple[SpaceFrame, ...]:
     """Return the frames in the tree of `fixed`, with their poses in `fixed`.
 
@@ -193,9 +192,8 @@ def frames_in_space(
         snapshot: Snapshot of the frames.
         fixed: Fixed frame of the picture.
         ages: Seconds since each frame's newest transform.
-        lookup: Function that returns the frames' poses; None to use the snapshot.
     """
-    lookup = lookup or in_snapshot(snapshot)
+    lookup = in_snapshot(snapshot)
     root = snapshot.frame(fixed).root if fixed in snapshot else None
     found = []
     for info in snapshot.frames:

@@ -70,9 +70,9 @@ class FarTurtles(Node):
 
     is_shown: ClassVar[bool] = False
 
-    def __init__(self, world: World, name: str = "far_turtles") -> None:
+    def __init__(self, world: World) -> None:
         """Subscribe to the poses of all present and future turtles, at most fifty."""
-        super().__init__(world, name)
+        super().__init__(world, "far_turtles")
         self.trail = Trail()
         self.background: Color = BACKGROUND
         self.revision = 0
@@ -81,7 +81,7 @@ class FarTurtles(Node):
         self._drawing = FarDrawing(self.trail)
         # Names of turtles whose strokes the simulator has sent.
         self._told: frozenset[str] = frozenset()
-        self._until_end(world.watch(self._look, name))
+        self._until_end(world.watch(self._look, self.name))
         self._look()
 
     @property
