@@ -67,7 +67,7 @@ class Frames:
         self.found = found
         self.log = log
         self._buffer = buffer
-        self._span = span
+        self._span: tuple[Stamp | None, Stamp | None] = span or (None, None)
         self.recording = recording
         self._robot = robot
         self._notes = notes
@@ -115,16 +115,12 @@ class Frames:
     @property
     def start(self) -> Stamp | None:
         """First stamp, nanoseconds; None if all transforms are static."""
-        return self.recording.start if self.recording is not None else self._ends[0]
+        return self.recording.start if self.recording is not None else self._span[0]
 
     @property
     def end(self) -> Stamp | None:
         """Last stamp, nanoseconds; None if all transforms are static."""
-        return self.recording.end if self.recording is not None else self._ends[1]
-
-    @property
-    def _ends(self) -> tuple[Stamp | None, Stamp | None]:
-        return self._span or (None, None)
+        return self.recording.end if self.recording is not None else self._span[1]
 
     @property
     def span(self) -> tuple[Stamp, Stamp]:
