@@ -99,7 +99,7 @@ def pytest_pycollect_makeitem(collector: Any, name: str, obj: Any) -> Any:
         (name, fixtures.as_function(obj, after_end=after_end), after_end)
     ]
     if scope != "function" and fixtures.is_generator(obj):
-        rest = fixtures.as_function(obj, after_end=True, second=True)
+        rest = fixtures.as_function(obj, after_end=True, after_yield=True)
         tests.append((f"{name}[shutdown_test]", rest, True))
     items: list[Any] = []
     for shown, test, is_after in tests:

@@ -15,7 +15,7 @@ from tftool.base.plain_text import did_you_mean, visible
 from tftool.ros import running
 from tftool.ros.host.program import Program
 from tftool.ros.host.workspace import Workspace
-from tftool.ros.launch.arguments import arguments_of, find_launch_file
+from tftool.ros.launch.arguments import find_launch_file, parse_arguments
 from tftool.ros.launch.engine import Launch
 from tftool.scenario.play import Play, StandIn, Watch
 from tftool.scenario.scenario import Scenario, Verdict
@@ -126,5 +126,5 @@ class Exercise:
                 failures.append(f"{who}: {text}")
 
         path, rest = find_launch_file(self.workspace, self.launch)
-        arguments = arguments_of(rest)
+        arguments = parse_arguments(rest)
         Launch(world, path, workspace=self.workspace, arguments=arguments, say=say)

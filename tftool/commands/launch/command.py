@@ -14,7 +14,7 @@ from tftool.commands.shared.programs import tell_log, workspace_here
 from tftool.ros import running
 from tftool.ros.host.importing import ros_free
 from tftool.ros.host.workspace import use_workspace
-from tftool.ros.launch.arguments import arguments_of, find_launch_file, show_arguments
+from tftool.ros.launch.arguments import find_launch_file, parse_arguments, show_arguments
 from tftool.ros.launch.engine import Launch
 
 
@@ -30,7 +30,7 @@ def run(connection: Connection, options: LaunchOptions) -> ExitStatus:
         path, rest = find_launch_file(workspace, options.words)
         if unfound := running.tell_unfound(workspace, path):
             notice(visible(unfound))
-        arguments = arguments_of(rest)
+        arguments = parse_arguments(rest)
         if options.show_args:
             sys.stdout.write(visible_lines(show_arguments(path, workspace)) + "\n")
             return ExitStatus.DONE

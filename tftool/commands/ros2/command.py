@@ -118,12 +118,12 @@ def _run_launch_tests(connection: Connection, words: list[str]) -> int:
     if not words or ":=" in words[0] or words[0].startswith("-"):
         raise UsageError("'ros2 test' needs a file of launch tests, then name:=value arguments")
     # Imported here: only launch tests need launch files and the test runner.
-    from tftool.ros.launch.arguments import arguments_of
+    from tftool.ros.launch.arguments import parse_arguments
     from tftool.ros.launch_testing.runner import run_tests
 
     path, arguments = Path(words[0]), words[1:]
     user_code.compile_file(path)
-    arguments_of(arguments)
+    parse_arguments(arguments)
     workspace = workspace_here(words[0], verbose=False)
     with ros_free():
         use_workspace(workspace)

@@ -335,7 +335,7 @@ class TimerAction(Action):
             UsageError: If the period is not a number of seconds.
         """
         period = seconds_of(context, self.period, "a TimerAction's period")
-        context.launch.later(self, period, self.actions)
+        context.launch.execute_later(self, period, self.actions)
 
     def describe_sub_entities(self) -> Sequence[Any]:
         """Return the actions that are executed after the delay."""

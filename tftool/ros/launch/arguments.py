@@ -15,7 +15,9 @@ from tftool.ros.launch.frontend import load_file
 from tftool.ros.launch.substitutions import perform
 
 
-def declared(description: LaunchDescription, context: LaunchContext) -> list[DeclareLaunchArgument]:
+def declared_arguments(
+    description: LaunchDescription, context: LaunchContext
+) -> list[DeclareLaunchArgument]:
     """Return the arguments that a launch description and its included files declare."""
     found: dict[str, DeclareLaunchArgument] = {}
 
@@ -52,7 +54,7 @@ def declared(description: LaunchDescription, context: LaunchContext) -> list[Dec
 
 
 def refuse_unknown(
-    path: Path, given: Mapping[str, str], known: Sequence[DeclareLaunchArgument]
+    path: Path, arguments: Mapping[str, str], declared: Sequence[DeclareLaunchArgument]
 ) -> None:
     """Raise an error if a command line sets an argument that the launch file does not use.
 
@@ -61,14 +63,14 @@ def refuse_unknown(
 
     Args:
         path: Path of the launch file.
-        given: Arguments on the command line, from name to value.
-        known: Arguments that the launch file declares.
+        arguments: Arguments on the command line, from name to value.
+        declared: Arguments that the launch file declares.
 
     Raises:
         UsageError: If an argument is not used; the text names the most similar declared argument.
     """
-    names = [one.name for one in known]
-    for name in given:
+    names = [one.name for one in declared]
+    for name in arguments:
         if name not in names and not _mentions(path, name):
             near = near_names(name, names)
             if near:
@@ -133,7 +135,7 @@ def _listed(folder: Path) -> str:
     return f"The package has {', '.join(found)}." if found else "Its folder 'launch' has none."
 
 
-def arguments_of(words: Sequence[str]) -> dict[str, str]:
+def parse_arguments(words: Sequence[str]) -> dict[str, str]:
     """Return the launch arguments on a command line as a mapping from name to value.
 
     Raises:
@@ -156,4 +158,4 @@ def show_arguments(path: Path, workspace: Workspace) -> str:
     """
     context = LaunchContext(workspace, load_file)
     context.enter_file(path)
-    return shown_arguments(declared(load_file(path), context))
+    return shown_arguments(declared_arguments(load_file(path), context))

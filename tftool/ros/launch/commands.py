@@ -50,7 +50,7 @@ Streams = Sequence[tuple[asyncio.StreamReader, bool]]
 """Output streams of a command, as (stream, whether the stream is standard output)."""
 
 
-async def begin(command: SystemCommand) -> tuple[asyncio.subprocess.Process, Streams]:
+async def start_command(command: SystemCommand) -> tuple[asyncio.subprocess.Process, Streams]:
     """Start a command in a new process group; return the process and its output streams.
 
     Raises:
@@ -101,7 +101,7 @@ async def _chunk_of(stream: asyncio.StreamReader) -> bytes:
         raise
 
 
-async def lines_of(stream: asyncio.StreamReader) -> AsyncIterator[str]:
+async def read_lines(stream: asyncio.StreamReader) -> AsyncIterator[str]:
     """Yield the lines of a command's output; split lines longer than 1 MiB.
 
     The method `readline` of the stream would raise an error at 64 KiB.
@@ -144,19 +144,19 @@ def _send(process: asyncio.subprocess.Process, number: int) -> None:
 class CommandRunner:
     """Runner of the system commands of one launch."""
 
-    def __init__(self, node: Node, warn: Callable[[str], object], *, waits: bool) -> None:
+    def __init__(self, node: Node, warn: Callable[[str], object], *, stops_time: bool) -> None:
         """Create a runner for the system commands of the launch `node`.
 
         Args:
             node: The launch, whose clock the commands use.
             warn: Function called with the text of each warning.
-            waits: Whether simulated time stops until a command ends, at most for `LONGEST_HOLD`
-                real seconds. If false, simulated time advances no faster than real time during a
-                command.
+            stops_time: Whether simulated time stops until a command ends, at most for
+                `LONGEST_HOLD` real seconds. If false, simulated time advances no faster than real
+                time during a command.
         """
         self._node = node
         self._warn = warn
-        self._waits = waits
+        self._stops_time = stops_time
         self._turns = asyncio.Lock()
         self._limit: asyncio.Future[None] | None = None
         self._is_ending = False
@@ -183,16 +183,16 @@ class CommandRunner:
         Raises:
             UsageError: If the command cannot be started.
         """
-        if self._waits and not self._is_ending:
+        if self._stops_time and not self._is_ending:
             # One command after the other, so that every run gives the same lines.
             async with self._turns:
-                running = await self._run_held(command, label, on_start, on_line)
+                running = await self._run_in_stopped_time(command, label, on_start, on_line)
         else:
             running = asyncio.ensure_future(_run(command, on_start, on_line))
         with paced(self._node.clock):
             return await running
 
-    async def _run_held(
+    async def _run_in_stopped_time(
         self, command: SystemCommand, label: str, on_start: OnStart, on_line: OnLine
     ) -> "asyncio.Task[int]":
         """Start a command while simulated time is stopped; return the task that runs the command.
@@ -233,11 +233,11 @@ class CommandRunner:
 
 
 async def _run(command: SystemCommand, on_start: OnStart, on_line: OnLine) -> int:
-    process, streams = await begin(command)
+    process, streams = await start_command(command)
     on_start(process)
 
     async def read(stream: asyncio.StreamReader, is_stdout: bool) -> None:
-        async for line in lines_of(stream):
+        async for line in read_lines(stream):
             on_line(line, is_stdout)
 
     await asyncio.gather(*(read(*one) for one in streams))

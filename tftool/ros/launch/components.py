@@ -113,7 +113,7 @@ class LoadComposableNodes(Action):
 
         def go_on(is_there: bool) -> None:
             if is_there:
-                context.launch.ask(service, requests, partial(self._loaded, context))
+                context.launch.send_requests(service, requests, partial(self._loaded, context))
                 return
             plugins = ", ".join(request.plugin_name for request in requests)
             context.launch.warn(

@@ -53,7 +53,7 @@ class LaunchContext:
         self._numbers: dict[str, int] = {}
         self._locals: dict[str, Any] = {}
         self._outer_locals: list[dict[str, Any]] = []
-        self._kept: list[tuple[Any, ...]] = []
+        self._states: list[tuple[Any, ...]] = []
 
     @property
     def workspace(self) -> Workspace:
@@ -108,8 +108,8 @@ class LaunchContext:
             )
         return self.launch
 
-    def number_of(self, name: str) -> int:
-        """Return a name's number in this launch; numbers begin at 1, in the order of first use."""
+    def number(self, name: str) -> int:
+        """Return the number of a name: 1 for the first name used in this launch, then 2, 3, …"""
         return self._numbers.setdefault(name, len(self._numbers) + 1)
 
     def perform_substitution(self, substitution: Any) -> str:
@@ -129,11 +129,8 @@ class LaunchContext:
             )
         self.files = (*self.files, path.absolute())
 
-    def kept(self) -> tuple[Any, ...]:
-        """Return a copy of the arguments, environment variables, current file and local values.
-
-        The method `back_to` restores the copy.
-        """
+    def copy_state(self) -> tuple[Any, ...]:
+        """Return a copy of the arguments, environment variables, current file and local values."""
         return (
             dict(self.launch_configurations),
             dict(self.environment),
@@ -143,21 +140,21 @@ class LaunchContext:
 
     def push(self) -> None:
         """Open a scope: save arguments, environment variables, current file and local values."""
-        self._kept.append(self.kept())
+        self._states.append(self.copy_state())
 
     def pop(self) -> None:
         """Close the innermost scope, and restore the values that `push` saved for this scope."""
-        self._restore(self._kept.pop())
+        self._restore(self._states.pop())
 
     @contextmanager
-    def back_to(self, kept: tuple[Any, ...]) -> Iterator[None]:
-        """Restore a state that the method `kept` returned, until the end of the `with` block."""
-        now = self.kept()
-        self._restore(kept)
+    def use_state(self, state: tuple[Any, ...]) -> Iterator[None]:
+        """Set the state that `copy_state` returned, until the end of the `with` block."""
+        now = self.copy_state()
+        self._restore(state)
         try:
             yield
         finally:
             self._restore(now)
 
-    def _restore(self, kept: tuple[Any, ...]) -> None:
-        (self.launch_configurations, self.environment, self.files, self._locals) = kept
+    def _restore(self, state: tuple[Any, ...]) -> None:
+        (self.launch_configurations, self.environment, self.files, self._locals) = state

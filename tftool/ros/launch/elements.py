@@ -26,74 +26,73 @@ class Element:
         where: Position in the file, "file:line".
         values: Attributes, from name to value.
         children: Child elements.
-        asked: Names of the attributes that the parser has read; `finish` refuses all others.
-        known: Tags of the child elements that the parser has read; `finish` refuses all others.
+        read_names: Names of the attributes that were read so far.
+        read_tags: Tags of the child elements that were read so far.
     """
 
     tag: str
     where: str
     values: dict[str, Any] = field(default_factory=dict)
     children: list["Element"] = field(default_factory=list)
-    asked: set[str] = field(default_factory=set)
-    known: set[str] = field(default_factory=set)
+    read_names: set[str] = field(default_factory=set)
+    read_tags: set[str] = field(default_factory=set)
 
     def get(self, name: str, default: Any = None) -> Any:
         """Return an attribute's value; return `default` if the element lacks the attribute."""
-        self.asked.add(name)
+        self.read_names.add(name)
         return self.values.get(name, default)
 
-    def need(self, *names: str) -> Any:
+    def required(self, *names: str) -> Any:
         """Return the value of a required attribute, whose name is any of `names`.
 
         Raises:
             InputError: If the attribute is missing.
         """
         for name in names:
-            self.asked.add(name)
+            self.read_names.add(name)
         for name in names:
             if name in self.values:
                 return self.values[name]
         raise InputError(f"{self.where}: '{self.tag}' needs the attribute '{names[0]}'")
 
-    def inside(self, *tags: str) -> list["Element"]:
+    def children_with(self, *tags: str) -> list["Element"]:
         """Return the child elements whose tag is in `tags`."""
-        self.known.update(tags)
+        self.read_tags.update(tags)
         return [child for child in self.children if child.tag in tags]
 
-    def all_inside(self) -> list["Element"]:
-        """Return all child elements; `finish` then accepts every tag."""
-        self.known.update(child.tag for child in self.children)
+    def all_children(self) -> list["Element"]:
+        """Return all child elements, whatever their tags are."""
+        self.read_tags.update(child.tag for child in self.children)
         return self.children
 
     def finish(self) -> None:
-        """Raise an error if any attribute or child element of this element was left unread.
+        """Check that all attributes and child elements were read; others are probably misspelt.
 
         Raises:
-            InputError: If a part was left unread, for example because it is misspelt; the message
-                suggests the part with the most similar name that the parser has read.
+            InputError: If one was not read; the text suggests the most similar name that was read.
         """
         for name in self.values:
-            if name not in self.asked:
-                raise self.refusal(f"'{self.tag}' has no attribute '{name}'", name, self.asked)
+            if name not in self.read_names:
+                raise self.error(f"'{self.tag}' has no attribute '{name}'", name, self.read_names)
         for child in self.children:
-            if child.tag not in self.known:
-                what = f"'{self.tag}' has no '{child.tag}' inside"
-                raise child.refusal(what, child.tag, self.known)
+            if child.tag not in self.read_tags:
+                sentence = f"'{self.tag}' has no '{child.tag}' inside"
+                raise child.error(sentence, child.tag, self.read_tags)
 
-    def too_deep(self) -> InputError:
+    def depth_error(self) -> InputError:
         """Return the error for elements that are nested too deep."""
         return InputError(f"{self.where}: more than {DEEPEST} levels of nesting are too deep")
 
-    def refusal(self, what: str, word: str, known: Iterable[str]) -> InputError:
-        """Return an error that gives this element's position in the file.
+    def error(self, sentence: str, wrong: str, allowed: Iterable[str]) -> InputError:
+        """Return an error with this element's position in the file and a hint "did you mean …".
 
         Args:
-            what: Sentence that describes the error.
-            word: The wrong word.
-            known: Allowed words; the word most similar to `word` is added as "did you mean".
+            sentence: Sentence that describes the error.
+            wrong: The wrong word.
+            allowed: Allowed words; the hint names the one most similar to `wrong`.
         """
-        hint = did_you_mean(word, known)
-        return InputError(f"{self.where}: {what}{hint}")
+        hint = did_you_mean(wrong, allowed)
+        return InputError(f"{self.where}: {sentence}{hint}")
 
 
 # Reading
@@ -137,7 +136,7 @@ def read_xml(data: bytes, path: Path) -> list[Element]:
     def start(tag: str, values: dict[str, Any]) -> None:
         element = Element(tag, f"{path}:{parser.CurrentLineNumber}", dict(values))
         if len(stack) > DEEPEST:
-            raise element.too_deep()
+            raise element.depth_error()
         stack[-1].children.append(element)
         stack.append(element)
 
@@ -179,7 +178,7 @@ def read_yaml(data: bytes, path: Path) -> list[Element]:
         where = f"{path}:{mark.line + 1}:{mark.column + 1}" if mark else str(path)
         raise InputError(f"{where}: {getattr(error, 'problem', None) or 'not YAML'}") from None
     except RecursionError:
-        raise Element("", str(path)).too_deep() from None
+        raise Element("", str(path)).depth_error() from None
     top = Element("launch", str(path))
     if not isinstance(root, yaml.MappingNode) or [key.value for key, _ in root.value] != ["launch"]:
         raise InputError(f"{path}: a launch file must have one top-level key, 'launch'")
@@ -216,7 +215,7 @@ class _Yaml:
         element = Element(tag, self.where(node))
         # An alias may occur inside its own anchor, without end.
         if depth > DEEPEST:
-            raise element.too_deep()
+            raise element.depth_error()
         if isinstance(node, yaml.SequenceNode):
             self.children(node, element, depth + 1)
             return element

@@ -16,7 +16,7 @@ from tftool.ros.host.error_text import error_sentence
 from tftool.ros.host.program import Program, ProgramNode, exit_status
 from tftool.ros.host.workspace import Workspace
 from tftool.ros.launch import commands
-from tftool.ros.launch.arguments import declared, refuse_unknown
+from tftool.ros.launch.arguments import declared_arguments, refuse_unknown
 from tftool.ros.launch.commands import SystemCommand
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.description import LaunchDescription
@@ -65,7 +65,7 @@ class Launch(Node):
     def __init__(
         self,
         world: World,
-        what: Path | LaunchDescription,
+        source: Path | LaunchDescription,
         *,
         workspace: Workspace | None = None,
         arguments: Mapping[str, str] | None = None,
@@ -75,11 +75,11 @@ class Launch(Node):
         contained: bool = False,
         keep_alive: bool = False,
     ) -> None:
-        """Read the launch file, if `what` is a path; the method `run` executes the description.
+        """Read the launch file, if `source` is a path; the method `run` executes the description.
 
         Args:
             world: World in which the nodes run.
-            what: Path of a launch file, or a launch description.
+            source: Path of a launch file, or a launch description.
             workspace: Workspace in which packages are searched; None for the current workspace.
             arguments: Values of the arguments that the launch file declares.
             say: Function called with level, program and text of each log line of the launch.
@@ -96,14 +96,16 @@ class Launch(Node):
         """
         self.context = context or LaunchContext(workspace)
         self.context.load, self.context.launch = load_file, self
-        if isinstance(what, Path):
+        if isinstance(source, Path):
             # Launch files import modules of the workspace's packages, too.
             importing.look_behind(self.context.workspace.module_folders)
-            self.description = load_file(what)
-            self.context.enter_file(what)
-            refuse_unknown(what, arguments or {}, declared(self.description, self.context))
+            self.description = load_file(source)
+            self.context.enter_file(source)
+            refuse_unknown(
+                source, arguments or {}, declared_arguments(self.description, self.context)
+            )
         else:
-            self.description = what
+            self.description = source
         self.context.launch_configurations.update(arguments or {})
         self.failed: list[str] = []
         self.ended = asyncio.Event()
@@ -117,12 +119,12 @@ class Launch(Node):
         self._count = 0
         self._closing = False
         self._contained, self._keep_alive = contained, keep_alive
-        self._events = EventQueue(self._tell)
+        self._events = EventQueue(self._handle)
         self._over: asyncio.Future[None] | None = None
         self._actions: dict[str, Any] = {}  # by label
         super().__init__(world, name)
-        waits = isinstance(self.clock, SimClock) and not contained
-        self._commands = commands.CommandRunner(self, self.warn, waits=waits)
+        stops_time = isinstance(self.clock, SimClock) and not contained
+        self._commands = commands.CommandRunner(self, self.warn, stops_time=stops_time)
         world.log.listen(self._logged, name)
 
     async def run(self) -> None:
@@ -160,7 +162,7 @@ class Launch(Node):
             UsageError: If an action cannot be executed; the text gives its line in the launch file.
             InputError: If Python code in the launch file raises an exception.
         """
-        with self._events.held():
+        with self._events.delayed():
             for entity in entities if isinstance(entities, Iterable) else [entities]:
                 following = self._visit(entity)
                 if following:
@@ -184,7 +186,7 @@ class Launch(Node):
         """Pass an event to the event handlers after the current action."""
         self._events.add(event)
 
-    def _tell(self, event: Event) -> None:
+    def _handle(self, event: Event) -> None:
         for handler in list(self.handlers):
             if handler.matches(event):
                 self.context.push_locals()
@@ -222,7 +224,7 @@ class Launch(Node):
             name = signal.Signals(number).name
             self.warn(f"{name} for {label} has no effect: {label} runs in tftool's own process")
 
-    def hear(self, topic: str, kind: type[Any], callback: Callable[[Any], object]) -> None:
+    def watch_topic(self, topic: str, kind: type[Any], callback: Callable[[Any], object]) -> None:
         """Call `callback` with every message on a topic; end the launch if `callback` raises."""
         self.subscribe(topic, kind, lambda message: self._guarded(lambda: callback(message)))
 
@@ -237,7 +239,9 @@ class Launch(Node):
         action: Any = self._actions.get(label)
         if getattr(action, "cached_output", False):
             action.output_lines.append((to_stdout, f"{line}\n"))
-        event = ProcessIO(text=f"{line}\n".encode(), fd=1 if to_stdout else 2, **self._of(label))
+        event = ProcessIO(
+            text=f"{line}\n".encode(), fd=1 if to_stdout else 2, **self._event_arguments(label)
+        )
         if self.is_awaited(event):
             self._guarded(lambda: self.emit(event))
 
@@ -260,7 +264,7 @@ class Launch(Node):
         for line in text.splitlines():
             program.current().ask(partial(self._wrote, label, line, to_stdout=is_stdout))
 
-    def _of(self, label: str) -> dict[str, Any]:
+    def _event_arguments(self, label: str) -> dict[str, Any]:
         """Return the keyword arguments of a `RunningProcessEvent` for the process named `label`."""
         action = self._actions.get(label)
         details = getattr(action, "process_details", None) or {"name": label}
@@ -271,7 +275,7 @@ class Launch(Node):
         action.process_details = {"name": label, "cmd": list(words), **details}
         shown = f": {shlex.join(words)}" if details else ""  # not for nodes
         self._say("INFO", label, f"process started{shown}")
-        self.emit(ProcessStarted(**self._of(label)))
+        self.emit(ProcessStarted(**self._event_arguments(label)))
 
     def is_awaited(self, event: Event) -> bool:
         """Return whether a registered handler matches an event."""
@@ -302,7 +306,7 @@ class Launch(Node):
         """Log a message of the launch with level WARNING."""
         self._say("WARNING", "launch", text)
 
-    def when_served(self, service: str, node_name: str, then: Callable[[bool], object]) -> None:
+    def when_served(self, service: str, node_name: str, callback: Callable[[bool], object]) -> None:
         """Wait for a service, then call a function.
 
         If this launch runs no node named `node_name`, the wait ends without the service.
@@ -310,8 +314,8 @@ class Launch(Node):
         Args:
             service: Name of the service.
             node_name: Full name of the node that offers the service.
-            then: Function called with True if the service exists, else False. During this call, the
-                launch has the arguments and environment of the scope that requested the wait.
+            callback: Function called with True if the service exists, else False. During this call,
+                the launch has the arguments and environment of the scope that requested the wait.
         """
 
         def is_settled() -> bool:
@@ -321,9 +325,9 @@ class Launch(Node):
             )
 
         if is_settled():
-            then(self.world.has_service(service))
+            callback(self.world.has_service(service))
             return
-        kept = self.context.kept()
+        state = self.context.copy_state()
 
         async def wait() -> None:
             changed = asyncio.Event()
@@ -334,21 +338,21 @@ class Launch(Node):
                     changed.clear()
             finally:
                 stop()
-            with self.context.back_to(kept):
-                self._guarded(lambda: then(self.world.has_service(service)))
+            with self.context.use_state(state):
+                self._guarded(lambda: callback(self.world.has_service(service)))
 
         self._start_task(wait(), self._timers)
 
-    def ask(
-        self, service: str, requests: Iterable[Any], done: Callable[[Any, Any], object]
+    def send_requests(
+        self, service: str, requests: Iterable[Any], callback: Callable[[Any, Any], object]
     ) -> None:
         """Send requests to a service, each after the response to the previous request.
 
         Args:
             service: Name of the service.
             requests: Request messages.
-            done: Function called after each request, with the request and either the response or
-                the error of the call.
+            callback: Function called after each request, with the request and either the response
+                or the error of the call.
         """
 
         async def work() -> None:
@@ -357,11 +361,11 @@ class Launch(Node):
                     answer = await self.world.call(service, request)
                 except TftoolError as error:
                     answer = error
-                self._guarded(partial(done, request, answer))
+                self._guarded(partial(callback, request, answer))
 
         self._start_task(work(), self._watches)
 
-    def later(self, action: Any, period: float, actions: Sequence[Any]) -> None:
+    def execute_later(self, action: Any, period: float, actions: Sequence[Any]) -> None:
         """Execute the actions of a timer after a delay, with the arguments of the present scope.
 
         Args:
@@ -369,11 +373,11 @@ class Launch(Node):
             period: Delay in seconds.
             actions: Actions to execute.
         """
-        kept = self.context.kept()
+        state = self.context.copy_state()
 
         async def wait() -> None:
             await self.clock.sleep(seconds(period), self.phase, self.rank)
-            with self.context.back_to(kept):
+            with self.context.use_state(state):
                 self._guarded(lambda: self.do(actions))
                 self._guarded(lambda: self.complete(action))
 
@@ -454,14 +458,14 @@ class Launch(Node):
         """
         show: list[Callable[[str], object]] = []
         body = ros2_program.body(words, self.context.workspace, lambda line: show[0](line))
-        label = self.start_body(action, ["ros2", *words], body, respawn)
+        label = self.start_function(action, ["ros2", *words], body, respawn)
         show.append(lambda line: program.current().ask(lambda: self._line(label, line)))
 
-    def start_body(
+    def start_function(
         self,
         action: Any,
         argv: Sequence[str],
-        body: Callable[[], None],
+        function: Callable[[], None],
         respawn: float | None = None,
     ) -> str:
         """Run a Python function as a program of the world; return the program's name in log lines.
@@ -469,7 +473,7 @@ class Launch(Node):
         Args:
             action: Action that starts the program; events name this action.
             argv: Command line of the program; its first word becomes the name in log lines.
-            body: Function to run.
+            function: Function to run.
             respawn: Seconds between the end and a new start; see `start_node`.
         """
         label = self._label(Path(argv[0]).name)
@@ -479,7 +483,7 @@ class Launch(Node):
             started = Program(
                 self.world,
                 label,
-                body,
+                function,
                 argv=argv,
                 on_exit=partial(self._program_ended, action, label),
             )
@@ -544,7 +548,7 @@ class Launch(Node):
             for line in reason.splitlines():
                 self._wrote(label, line, to_stdout=False)
         action.return_code = status
-        event = ProcessExited(returncode=status, **self._of(label))
+        event = ProcessExited(returncode=status, **self._event_arguments(label))
         self._guarded(lambda: self.emit(event))
         if not self._respawn(label):
             self._guarded(lambda: self.complete(action))
@@ -584,12 +588,12 @@ class Launch(Node):
         if self._over is not None and not self._over.done():
             self._over.set_result(None)
 
-    def _start_task(self, coroutine: Any, kept: "set[asyncio.Task[None]]") -> None:
+    def _start_task(self, coroutine: Any, tasks: "set[asyncio.Task[None]]") -> None:
         task = asyncio.get_running_loop().create_task(coroutine)
-        kept.add(task)
+        tasks.add(task)
 
         def ended(task: "asyncio.Task[None]") -> None:
-            kept.discard(task)
+            tasks.discard(task)
             self._look_round()
 
         task.add_done_callback(ended)

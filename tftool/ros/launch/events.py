@@ -142,11 +142,11 @@ def _entities(given: Any, event: Event, context: Any) -> Any:
     return [given] if hasattr(given, "visit") else given
 
 
-def _listed(given: Any) -> list[Any]:
+def _as_list(entities: Any) -> list[Any]:
     """Return an event handler's actions as a list; [] for a function that computes the actions."""
-    if given is None or callable(given):
+    if entities is None or callable(entities):
         return []
-    return list(given) if isinstance(given, Iterable) else [given]
+    return list(entities) if isinstance(entities, Iterable) else [entities]
 
 
 class EventHandler:
@@ -160,8 +160,8 @@ class EventHandler:
         self, *, matcher: Callable[[Event], bool], entities: Any = None, handle_once: bool = False
     ) -> None:
         self._matcher = matcher
-        self._given = entities
-        self.entities = _listed(entities)
+        self._entities = entities
+        self.entities = _as_list(entities)
         self.handle_once = handle_once
 
     def matches(self, event: Event) -> bool:
@@ -173,7 +173,7 @@ class EventHandler:
         context.extend_locals({"event": event})
         if self.handle_once:
             context.unregister_event_handler(self)
-        return _entities(self._given, event, context)
+        return _entities(self._entities, event, context)
 
 
 def _targets(action: Any, target: Any) -> bool:
@@ -252,7 +252,7 @@ class OnProcessIO(TargetHandler):
             return given(event) if callable(given) else given
 
         super().__init__(target_action, written, **kwargs)
-        self.entities = [*_listed(on_stdout), *_listed(on_stderr)]
+        self.entities = [*_as_list(on_stdout), *_as_list(on_stderr)]
 
 
 class OnExecutionComplete(TargetHandler):
@@ -272,7 +272,7 @@ class OnShutdown(EventHandler):
 
 
 MOST_EVENTS = 1000
-"""Number of successive events, each caused by a handler of another, that ends the launch."""
+"""Largest number of events handled one after the other before the launch ends with an error."""
 
 
 class EventQueue:
@@ -281,37 +281,37 @@ class EventQueue:
     In the launch file, a handler can therefore come after the action whose events it handles.
     """
 
-    def __init__(self, tell: Callable[[Event], object]) -> None:
-        """Create a queue; `tell` is a function that passes an event to the matching handlers."""
-        self._tell = tell
+    def __init__(self, handle: Callable[[Event], object]) -> None:
+        """Create a queue that passes each event to the function `handle`."""
+        self._handle = handle
         self._waiting: deque[Event] = deque()
-        self._is_held = False
+        self._is_delayed = False
 
     def add(self, event: Event) -> None:
-        """Add an event; handle the event at once unless an action is being executed."""
-        with self.held():
+        """Add an event, which is handled at once unless an action is being executed."""
+        with self.delayed():
             self._waiting.append(event)
 
     @contextmanager
-    def held(self) -> Iterator[None]:
+    def delayed(self) -> Iterator[None]:
         """Delay events until the end of the `with` block, then handle all delayed events.
 
         Raises:
             UsageError: If the handlers' actions emit further events without end.
         """
-        if self._is_held:
+        if self._is_delayed:
             yield
             return
-        self._is_held = True
+        self._is_delayed = True
         try:
             yield
-            told = 0
+            count = 0
             while self._waiting:
-                told += 1
-                if told > MOST_EVENTS:
+                count += 1
+                if count > MOST_EVENTS:
                     raise UsageError(
                         "event handlers trigger each other without end: give each a target_action"
                     )
-                self._tell(self._waiting.popleft())
+                self._handle(self._waiting.popleft())
         finally:
-            self._is_held = False
+            self._is_delayed = False

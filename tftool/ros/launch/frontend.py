@@ -44,7 +44,7 @@ class Parser:
 
     def parse_description(self, entity: Element) -> LaunchDescription:
         """Return the launch description of a launch file's root element."""
-        return LaunchDescription(actions_of(entity.all_inside()))
+        return LaunchDescription(actions_of(entity.all_children()))
 
 
 def actions_of(elements: Iterable[Element]) -> list[Any]:
@@ -64,7 +64,7 @@ def _action(element: Element) -> Any:
     if make is None:
         what = f"there is no '{element.tag}' in a launch file"
         known = [one for one in tagged() if not one.startswith("$")]
-        raise element.refusal(what, element.tag, known)
+        raise element.error(what, element.tag, known)
     condition = _condition(element)
     made = make(element)
     element.finish()
@@ -82,7 +82,7 @@ def _condition(element: Element) -> Any:
 
 
 def _text(element: Element, *names: str) -> Any:
-    return parsed(element.need(*names), element.where)
+    return parsed(element.required(*names), element.where)
 
 
 def _optional(element: Element, name: str, default: Any = None) -> Any:
@@ -94,7 +94,7 @@ YAML_FLAGS = {"yes": True, "on": True, "no": False, "off": False}
 """Words besides "true" and "false" for attributes that ROS reads as YAML."""
 
 
-def _flag(element: Element, name: str, default: str) -> bool:
+def _boolean(element: Element, name: str, default: str) -> bool:
     """Return the value of a boolean attribute; raise InputError if the text is not boolean.
 
     A substitution, `$(…)`, is refused too: its value is unknown before the launch runs.
@@ -111,7 +111,7 @@ def _flag(element: Element, name: str, default: str) -> bool:
         return is_true(text)
     except UsageError:
         what = f"'{name}' of '{element.tag}' must be true or false, not '{text}'"
-        raise element.refusal(what, "", ()) from None
+        raise element.error(what, "", ()) from None
 
 
 def _each(element: Element, read: Callable[[Element], Any], *tags: str) -> list[Any]:
@@ -120,7 +120,7 @@ def _each(element: Element, read: Callable[[Element], Any], *tags: str) -> list[
     Raise InputError if `read` leaves an attribute or child element unread.
     """
     found = []
-    for child in element.inside(*tags):
+    for child in element.children_with(*tags):
         found.append(read(child))
         child.finish()
     return found
@@ -131,9 +131,9 @@ def _pair(first: str, second: str) -> Callable[[Element], tuple[Any, Any]]:
 
 
 def _arg(element: Element) -> Any:
-    choices = _each(element, lambda child: child.need("value"), "choice")
+    choices = _each(element, lambda child: child.required("value"), "choice")
     return actions.DeclareLaunchArgument(
-        str(element.need("name")),
+        str(element.required("name")),
         default_value=_optional(element, "default"),
         description=element.get("description"),
         choices=choices or None,
@@ -146,7 +146,7 @@ def _startable(element: Element) -> dict[str, Any]:
         element.get(name)
     on_exit = element.get("on_exit")
     if on_exit not in (None, "shutdown"):
-        raise element.refusal(f"on_exit must be 'shutdown', not '{on_exit}'", "", ())
+        raise element.error(f"on_exit must be 'shutdown', not '{on_exit}'", "", ())
     return {
         "on_exit": actions.Shutdown(reason=f"{element.tag} ended") if on_exit else None,
         "output": element.get("output", "log"),
@@ -175,8 +175,8 @@ def _node(element: Element, kind: Callable[..., Any] = nodes.Node, **kwargs: Any
 
 
 def _lifecycle_node(element: Element) -> Any:
-    element.need("name")
-    element.need("namespace")
+    element.required("name")
+    element.required("namespace")
     return _node(element, lifecycle.LifecycleNode)
 
 
@@ -195,8 +195,8 @@ def _component(element: Element) -> components.ComposableNode:
 
 
 def _node_container(element: Element) -> Any:
-    element.need("name")
-    element.need("namespace")
+    element.required("name")
+    element.required("namespace")
     return _node(
         element,
         components.ComposableNodeContainer,
@@ -223,7 +223,7 @@ def _words(text: Any, element: Element) -> list[Any]:
         try:
             found = shlex.split(part.text)
         except ValueError:
-            raise element.refusal(f"a quote in '{text}' is not closed", "", ()) from None
+            raise element.error(f"a quote in '{text}' is not closed", "", ()) from None
         if part.text[0].isspace():
             words.append([])
         for number, word in enumerate(found):
@@ -251,17 +251,17 @@ _TYPES: Mapping[str, Any] = MappingProxyType(
 def _param(element: Element, prefix: str = "") -> Any:
     if "from" in element.values:
         return parameters.ParameterFile(
-            _text(element, "from"), allow_substs=_flag(element, "allow_substs", "false")
+            _text(element, "from"), allow_substs=_boolean(element, "allow_substs", "false")
         )
-    name = prefix + str(element.need("name"))
-    if element.inside("param"):
+    name = prefix + str(element.required("name"))
+    if element.children_with("param"):
         whole: dict[str, Any] = {}
         for below in _each(element, partial(_param, prefix=f"{name}."), "param"):
             whole.update(below)
         return whole
-    value, kind = element.need("value"), element.get("type")
+    value, kind = element.required("value"), element.get("type")
     if kind is not None and kind not in _TYPES:
-        raise element.refusal(
+        raise element.error(
             f"a type must be one of {', '.join(_TYPES)}, not '{kind}'", str(kind), _TYPES
         )
     separator = element.get("value-sep")
@@ -274,7 +274,7 @@ def _param(element: Element, prefix: str = "") -> Any:
     try:
         return {name: parameters.ParameterValue(value, value_type=kind and _TYPES[kind])}
     except TypeError as error:
-        raise element.refusal(str(error), "", ()) from None
+        raise element.error(str(error), "", ()) from None
 
 
 def _value(text: Any, element: Element) -> list[Any]:
@@ -290,15 +290,15 @@ def _include(element: Element) -> Any:
 def _group(element: Element) -> Any:
     kept = dict(_each(element, _kept, "keep"))
     return actions.GroupAction(
-        actions_of(child for child in element.all_inside() if child.tag != "keep"),
-        scoped=_flag(element, "scoped", "true"),
-        forwarding=_flag(element, "forwarding", "true"),
+        actions_of(child for child in element.all_children() if child.tag != "keep"),
+        scoped=_boolean(element, "scoped", "true"),
+        forwarding=_boolean(element, "forwarding", "true"),
         launch_configurations=kept,
     )
 
 
 def _kept(child: Element) -> tuple[str, Any]:
-    return str(child.need("name")), _text(child, "value")
+    return str(child.required("name")), _text(child, "value")
 
 
 def _reset(element: Element) -> Any:
@@ -306,7 +306,7 @@ def _reset(element: Element) -> Any:
 
 
 def _executable(element: Element) -> Any:
-    shell, text = _flag(element, "shell", "false"), element.need("cmd")
+    shell, text = _boolean(element, "shell", "false"), element.required("cmd")
     return processes.ExecuteProcess(
         # A shell interprets the quotes itself.
         cmd=[parsed(text, element.where)] if shell else _words(text, element),
@@ -318,7 +318,7 @@ def _executable(element: Element) -> Any:
 
 def _timer(element: Element) -> Any:
     return actions.TimerAction(
-        period=_text(element, "period"), actions=actions_of(element.all_inside())
+        period=_text(element, "period"), actions=actions_of(element.all_children())
     )
 
 
@@ -326,7 +326,7 @@ def _append_env(element: Element) -> Any:
     return actions.AppendEnvironmentVariable(
         _text(element, "name"),
         _text(element, "value"),
-        prepend=_flag(element, "prepend", "false"),
+        prepend=_boolean(element, "prepend", "false"),
         separator=_optional(element, "separator", ":"),
     )
 

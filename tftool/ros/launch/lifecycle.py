@@ -102,7 +102,7 @@ class LifecycleNode(Node):
             EventHandler(matcher=self._is_meant, entities=lambda event, _: [self._change(event)])
         )
         kind = INTERFACES.message("lifecycle_msgs/TransitionEvent")
-        context.launch.hear(
+        context.launch.watch_topic(
             f"{self.node_name.strip('/')}/transition_event",
             kind,
             lambda message: context.launch.emit(StateTransition(action=self, msg=message)),

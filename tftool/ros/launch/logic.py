@@ -10,7 +10,7 @@ from tftool.ros.launch.substitutions import Substitution, SubstitutionFailure, i
 _TRUTHS = {"true": True, "1": True, "false": False, "0": False}
 
 
-def _holds(context: LaunchContext, value: Any) -> bool:
+def _truth(context: LaunchContext, value: Any) -> bool:
     """Evaluate substitutions: return True for the text "true" or "1", False for "false" or "0".
 
     Raises:
@@ -64,7 +64,7 @@ class _Several(Substitution):
 
         As in ROS 2, all values are evaluated, even if the first value decides.
         """
-        return str(self.judge([_holds(context, value) for value in self.args])).lower()
+        return str(self.judge([_truth(context, value) for value in self.args])).lower()
 
 
 class AnySubstitution(_Several):
@@ -105,7 +105,7 @@ class NotSubstitution(Substitution):
 
     def perform(self, context: LaunchContext) -> str:
         """Return 'true' if the given text is false, else 'false'."""
-        return str(not _holds(context, self.value)).lower()
+        return str(not _truth(context, self.value)).lower()
 
 
 class IfElseSubstitution(Substitution):
@@ -124,7 +124,7 @@ class IfElseSubstitution(Substitution):
     def perform(self, context: LaunchContext) -> str:
         """Return `if_value` if the condition is true, else `else_value`."""
         word = perform(context, self.condition).strip().lower()
-        chosen = _holds(
+        chosen = _truth(
             context, {"on": "true", "yes": "true", "off": "false", "no": "false"}.get(word, word)
         )
         return perform(context, self.if_value if chosen else self.else_value)

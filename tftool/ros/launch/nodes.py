@@ -65,8 +65,8 @@ class Node(Startable):
         self.name, self.namespace, self.exec_name = name, namespace, exec_name
         self.parameters = [] if parameters is None else normalize_parameters(parameters)
         self.remappings = list(normalize_remap_rules(remappings or ()))
-        self.arguments = _listed(arguments)
-        self.ros_arguments = _listed(ros_arguments)
+        self.arguments = _argument_list(arguments)
+        self.ros_arguments = _argument_list(ros_arguments)
         self.additional_env, self.env, self.cwd, self.shell = additional_env, env, cwd, shell
         self.node_name = ""
         self.expanded_node_namespace = self.UNSPECIFIED_NODE_NAMESPACE
@@ -125,7 +125,7 @@ class Node(Startable):
         if package is None:
             executable = python_file(executable)
         self.handle_exit(context)
-        self.say_unused(context, "additional_env", "env", "cwd", "shell")
+        self.warn_of_unused(context, "additional_env", "env", "cwd", "shell")
         label = perform(context, self.exec_name) or Path(executable).name
         started = Executable(package, executable, arguments, options, label)
         context.launch.start_node(self, started, self.respawn_after(context))
@@ -164,10 +164,10 @@ def python_file(executable: str) -> str:
     return found
 
 
-def _listed(given: Any) -> list[Any]:
+def _argument_list(arguments: Any) -> list[Any]:
     """Return arguments as a list; split arguments in one text as a shell does."""
-    if given is None:
+    if arguments is None:
         return []
-    if isinstance(given, str):
-        return list(shlex.split(given))
-    return [given] if isinstance(given, Substitution) else list(given)
+    if isinstance(arguments, str):
+        return list(shlex.split(arguments))
+    return [arguments] if isinstance(arguments, Substitution) else list(arguments)

@@ -34,7 +34,7 @@ class ParameterValue:
         # If a single value is wanted, a list of texts is joined to one text.
         if _is_text(value) or (value_type in _SINGLE and _is_parts(value)):
             self.value = normalize_to_list_of_substitutions(value)
-        elif value_type is None or _is_of(value, value_type) or _holds_texts(value):
+        elif value_type is None or _is_of(value, value_type) or _has_texts(value):
             self.value = value
         else:
             shown = getattr(value_type, "__name__", value_type)
@@ -48,7 +48,7 @@ class ParameterValue:
         """
         if _is_text(self.value):
             self.value = _typed(perform(context, self.value), self.value_type)
-        elif _holds_texts(self.value):
+        elif _has_texts(self.value):
             (kind,) = get_args(self.value_type) or (None,)
             found = (ParameterValue(one, value_type=kind) for one in self.value)
             self.value = [one.evaluate(context) for one in found]
@@ -255,17 +255,17 @@ def _evaluated(context: LaunchContext, value: Any) -> Any:
     return tuple(value) if isinstance(value, list) else value
 
 
-def read_all(context: LaunchContext, given: Iterable[Any]) -> list[tuple[str, str, Any]]:
+def read_all(context: LaunchContext, parameters: Iterable[Any]) -> list[tuple[str, str, Any]]:
     """Return (node pattern, name, value) for each parameter in mappings and parameter files.
 
     The node pattern is "" for a parameter from a mapping.
 
     Args:
         context: State of the launch.
-        given: Result of `normalize_parameters`.
+        parameters: Result of `normalize_parameters`.
     """
     found: list[tuple[str, str, Any]] = []
-    for one in given:
+    for one in parameters:
         if isinstance(one, ParameterFile):
             found += one.read(context)
             continue
@@ -354,6 +354,6 @@ def _is_parts(value: Any) -> bool:
     )
 
 
-def _holds_texts(value: Any) -> bool:
+def _has_texts(value: Any) -> bool:
     """Return whether a list has an item that is evaluated only while the launch runs."""
     return isinstance(value, list | tuple) and any(_is_text(one) for one in value)

@@ -114,7 +114,7 @@ def _substitution(text: str, start: int, where: str) -> tuple[Any, int]:
     name = words[0][0].text
     make, imported = EXPOSED.get(name), tagged().get(f"${name}")
     if make is None and imported is not None:
-        make = partial(_made, load(imported))
+        make = partial(_create, load(imported))
     if make is None:
         known = (tag.removeprefix("$") for tag in tagged() if tag.startswith("$"))
         near = near_names(name, [*known, *EXPOSED])
@@ -126,23 +126,23 @@ def _substitution(text: str, start: int, where: str) -> tuple[Any, int]:
         raise InputError(f"{where}: '$({name} …)' has the wrong number of arguments") from None
 
 
-def _made(kind: Any, *words: list[Any]) -> Any:
-    """Create a substitution of the class `kind` with the parsed arguments `words`, in order."""
-    pairs = zip(inspect.signature(kind).parameters.values(), words, strict=False)
+def _create(cls: Any, *arguments: list[Any]) -> Any:
+    """Create a substitution of the class `cls` from the parsed arguments of a `$(…)`."""
+    pairs = zip(inspect.signature(cls).parameters.values(), arguments, strict=False)
     named = {one.name: word for one, word in pairs if one.kind is one.KEYWORD_ONLY}
-    return kind(*words[: len(words) - len(named)], **named)
+    return cls(*arguments[: len(arguments) - len(named)], **named)
 
 
-def _expression(*words: list[Any]) -> PythonExpression:
+def _expression(*arguments: list[Any]) -> PythonExpression:
     """Return the substitution for `$(eval …)`.
 
     If there are exactly two arguments in quotes, the second argument names modules to import.
     """
-    if len(words) == 2 and all(isinstance(word, _Quoted) for word in words):
-        plain = "".join(part.text for part in words[1] if isinstance(part, TextSubstitution))
+    if len(arguments) == 2 and all(isinstance(word, _Quoted) for word in arguments):
+        plain = "".join(part.text for part in arguments[1] if isinstance(part, TextSubstitution))
         modules = [name.strip() for name in plain.split(",") if name.strip()]
-        return PythonExpression(words[0], modules)
-    return PythonExpression(_spaced(words))
+        return PythonExpression(arguments[0], modules)
+    return PythonExpression(_spaced(arguments))
 
 
 def _spaced(words: Iterable[list[Any]]) -> list[Any]:

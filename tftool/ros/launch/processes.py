@@ -131,12 +131,12 @@ class Startable(Action):
             return None
         return seconds_of(context, self.respawn_delay or 0.0, "a respawn_delay")
 
-    def say_unused(self, context: LaunchContext, *names: str) -> None:
+    def warn_of_unused(self, context: LaunchContext, *names: str) -> None:
         """Log a warning if the launch file sets arguments that tftool ignores.
 
         Args:
             context: State of the launch.
-            names: Names of arguments that tftool ignores, in addition to `prefix`.
+            names: Names of ignored arguments; the ignored argument `prefix` is always checked.
         """
         given = [name for name in ("prefix", *names) if getattr(self, name)]
         if given:
@@ -196,15 +196,15 @@ class ExecuteProcess(Startable):
             raise UsageError("ExecuteProcess needs a command: pass cmd=[…]")
         environment = dict(context.environment)
         if self.env is not None:
-            environment = _texts(context, self.env)
-        environment.update(_texts(context, self.additional_env or {}))
+            environment = _environment(context, self.env)
+        environment.update(_environment(context, self.additional_env or {}))
         cwd = None if self.cwd is None else perform(context, self.cwd)
         if self.process_name is None:
             name = Path(words[0].split()[0]).name
         else:
             name = perform(context, self.process_name)
         self.handle_exit(context)
-        self.say_unused(context)
+        self.warn_of_unused(context)
         shell = is_true(perform(context, self.shell))
         if (ros2 := _ros2_words(words, shell)) is not None:
             return self._execute_ros2(context, ros2)
@@ -242,7 +242,7 @@ class ExecuteProcess(Startable):
             from tftool.ros.launch.service import run_launch_file
 
             body = partial(run_launch_file, context.workspace, words[1:])
-            context.launch.start_body(self, ["ros2", *words], body, self.respawn_after(context))
+            context.launch.start_function(self, ["ros2", *words], body, self.respawn_after(context))
             return None
         context.launch.start_ros2(self, words, self.respawn_after(context))
         return None
@@ -329,7 +329,7 @@ def _uses_rclpy(file: Path, roots: Sequence[Path], seen: set[Path]) -> bool:
     )
 
 
-def _texts(context: LaunchContext, given: Any) -> dict[str, str]:
+def _environment(context: LaunchContext, variables: Any) -> dict[str, str]:
     """Return the environment variables in a mapping or in pairs, with substitutions evaluated."""
-    pairs = given.items() if isinstance(given, Mapping) else given
+    pairs = variables.items() if isinstance(variables, Mapping) else variables
     return {perform(context, key): perform(context, value) for key, value in pairs}

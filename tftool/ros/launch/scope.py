@@ -46,12 +46,12 @@ def prefix_namespace(base_ns: str | None, ns: str | None) -> str | None:
     return joined if joined is None or is_root_namespace(joined) else joined.rstrip("/")
 
 
-def namespace_in(context: LaunchContext, own: Any) -> str | None:
+def namespace_in(context: LaunchContext, node_namespace: Any) -> str | None:
     """Return the absolute namespace of a node that is started in the current scope.
 
     Args:
         context: State of the launch, with the scope's settings.
-        own: Namespace of the node itself, or None.
+        node_namespace: Namespace of the node itself, or None.
 
     Returns:
         The namespace; None if neither the scope nor the node has one.
@@ -59,7 +59,7 @@ def namespace_in(context: LaunchContext, own: Any) -> str | None:
     Raises:
         UsageError: If ROS 2 does not accept the namespace.
     """
-    given = None if own is None else perform(context, own)
+    given = None if node_namespace is None else perform(context, node_namespace)
     base = context.launch_configurations.get(_NAMESPACE)
     namespace = make_namespace_absolute(prefix_namespace(base, given))
     if namespace is not None:
@@ -88,16 +88,18 @@ def normalize_remap_rules(remap_rules: Iterable[Any]) -> Iterable[tuple[Any, Any
     return (normalize_remap_rule(rule) for rule in remap_rules)
 
 
-def remaps_in(context: LaunchContext, own: Iterable[tuple[Any, Any]]) -> list[tuple[str, str]]:
+def remaps_in(
+    context: LaunchContext, node_rules: Iterable[tuple[Any, Any]]
+) -> list[tuple[str, str]]:
     """Return the remapping rules of the current scope and then those of a node, as (old, new).
 
     Args:
         context: State of the launch.
-        own: Remapping rules of the node itself.
+        node_rules: Remapping rules of the node itself.
     """
     return [
         *_kept(context, _REMAPS),
-        *((perform(context, old), perform(context, new)) for old, new in own),
+        *((perform(context, old), perform(context, new)) for old, new in node_rules),
     ]
 
 

@@ -11,7 +11,7 @@ from tftool.ros.host import program
 from tftool.ros.host.shims import SLICE
 from tftool.ros.host.workspace import Workspace
 from tftool.ros.launch.actions import IncludeLaunchDescription
-from tftool.ros.launch.arguments import arguments_of, find_launch_file
+from tftool.ros.launch.arguments import find_launch_file, parse_arguments
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.description import LaunchDescription
 from tftool.ros.launch.engine import Launch
@@ -157,7 +157,7 @@ def run_launch_file(workspace: Workspace, words: Sequence[str]) -> None:
         SystemExit: If the launch failed.
     """
     path, rest = find_launch_file(workspace, words)
-    arguments = arguments_of(rest).items()
+    arguments = parse_arguments(rest).items()
     service = LaunchService()
     included = IncludeLaunchDescription(str(path), launch_arguments=arguments)
     service.include_launch_description(LaunchDescription([included]))

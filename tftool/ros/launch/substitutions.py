@@ -291,7 +291,7 @@ class AnonName(Substitution):
     def perform(self, context: LaunchContext) -> str:
         """Return "name_number"; within one launch, a name always gets the same number."""
         name = perform(context, self.name)
-        return f"{name}_{context.number_of(name)}"
+        return f"{name}_{context.number(name)}"
 
 
 class FindPackageShare(Substitution):

@@ -108,7 +108,7 @@ class KeepAliveProc(ExecuteProcess):
     def execute(self, context: LaunchContext) -> Any:
         """Start a program that waits until the launch is shut down."""
         self.handle_exit(context)
-        context.launch.start_body(self, self.cmd, _wait_for_end)
+        context.launch.start_function(self, self.cmd, _wait_for_end)
 
 
 def _wait_for_end() -> None:

@@ -176,13 +176,13 @@ def launched(name: str, options: tuple[bool, bool], service: LaunchedService, va
     service.start(description, keep_alive=not shutdown_when_idle)
 
 
-def as_function(test: Any, *, after_end: bool, second: bool = False) -> Callable[..., None]:
+def as_function(test: Any, *, after_end: bool, after_yield: bool = False) -> Callable[..., None]:
     """Convert a launch test to an ordinary test function for pytest.
 
     Args:
         test: The user's test, which may be a function, a coroutine function or a generator.
         after_end: Whether the test runs after the end of the launch.
-        second: Whether to run only the part of a generator after its `yield`.
+        after_yield: Whether to run only the part of a generator after its `yield`.
     """
     takes = inspect.signature(test)
     wants_service = "launch_service" in takes.parameters
@@ -190,7 +190,7 @@ def as_function(test: Any, *, after_end: bool, second: bool = False) -> Callable
     @functools.wraps(test)
     def run(*args: Any, **given: Any) -> None:
         service = given["launch_service"] if wants_service else given.pop("launch_service")
-        if second:
+        if after_yield:
             if (generator := service.waiting.pop(test, None)) is None:
                 pytest.skip("the part before its yield has failed")
             service.finish()

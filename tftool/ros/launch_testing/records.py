@@ -50,7 +50,7 @@ class _Record:
         """Return the names of the processes in this record."""
         return list(dict.fromkeys(event.process_name for event in self))
 
-    def holds_within(self, check: Callable[[], bool], timeout: float | None) -> bool:
+    def wait_for(self, check: Callable[[], bool], timeout: float | None) -> bool:
         """Wait until `check` returns True; return False after `timeout` seconds."""
 
         def holds() -> bool:
@@ -95,7 +95,7 @@ class ProcInfoHandler(_Record):
             found = resolveProcesses(self, process=process, cmd_args=cmd_args)[0]
             return isinstance(self[found], ProcessExited)
 
-        assert self.holds_within(has_ended, timeout), (
+        assert self.wait_for(has_ended, timeout), (
             f"Timed out waiting for process '{process}' to finish"
         )
 
@@ -107,7 +107,7 @@ class ProcInfoHandler(_Record):
         Raises:
             AssertionError: If the process has not started after `timeout` seconds.
         """
-        assert self.holds_within(
+        assert self.wait_for(
             lambda: bool(resolveProcesses(self, process=process, cmd_args=cmd_args)), timeout
         ), f"Timed out waiting for process '{process}' to start"
 
@@ -155,7 +155,7 @@ class IoHandler(_Record):
                 return False
             return True
 
-        found = self.holds_within(is_there, timeout)
+        found = self.wait_for(is_there, timeout)
         if not found:
             resolveProcesses(self, process=process, cmd_args=cmd_args, strict_proc_matching=False)
         return found
@@ -392,13 +392,13 @@ class ProcessProxy:
 
     def wait_for_shutdown(self, timeout: float | None = None) -> bool:
         """Wait until the process has ended; return False after `timeout` seconds."""
-        return self._info.holds_within(lambda: self.terminated, timeout)
+        return self._info.wait_for(lambda: self.terminated, timeout)
 
     def wait_for_output(
         self, condition: Callable[[str], bool] = lambda _: True, timeout: float | None = None
     ) -> bool:
         """Wait until `condition` accepts the process's output; return False at the timeout."""
-        return self._output.holds_within(lambda: self.running and condition(self.output), timeout)
+        return self._output.wait_for(lambda: self.running and condition(self.output), timeout)
 
     def _text(self, *streams: bool) -> str:
         lines = self._output[self.target_process_action]

@@ -73,7 +73,7 @@ def _cases(tests: Any) -> Iterator[Any]:
         yield tests
 
 
-def _given(function: Callable[..., Any], values: Mapping[str, Any]) -> Callable[..., Any]:
+def _bind(function: Callable[..., Any], values: Mapping[str, Any]) -> Callable[..., Any]:
     """Bind the `values` that `function` takes as arguments; return the bound function."""
     wanted = inspect.signature(function).parameters
     return functools.partial(function, **{k: v for k, v in values.items() if k in wanted})
@@ -224,13 +224,13 @@ def wait_for_first(
 
 
 def _run(
-    tests: unittest.TestSuite, given: Mapping[str, Any], attributes: Mapping[str, Any]
+    tests: unittest.TestSuite, arguments: Mapping[str, Any], attributes: Mapping[str, Any]
 ) -> TestResult:
     """Run tests and return their result.
 
     Args:
         tests: The tests.
-        given: Values for arguments of test methods, `setUp` and the like, by argument name.
+        arguments: Values for arguments of test methods, `setUp` and the like, by argument name.
         attributes: Values that become attributes of the test classes.
     """
     tests = copy.deepcopy(tests)
@@ -239,10 +239,10 @@ def _run(
         for name, value in attributes.items():
             setattr(test_class, name, value)
         for name in ("setUpClass", "tearDownClass"):
-            setattr(test_class, name, _given(getattr(test_class, name), given))
+            setattr(test_class, name, _bind(getattr(test_class, name), arguments))
     for case in _cases(tests):
         for name in (case._testMethodName, "setUp", "tearDown"):
-            setattr(case, name, _given(getattr(case, name), given))
+            setattr(case, name, _bind(getattr(case, name), arguments))
     runner = unittest.TextTestRunner(verbosity=2, resultclass=TestResult)
     return cast(TestResult, runner.run(tests))
 
