@@ -1,4 +1,4 @@
-/* tftool view; three.js: see three-LICENSE.txt; sources 0d9da521e4cd18a08d06c41349fb0f6d407bcad05781ef1568b2a8a182e4ff84 */
+/* tftool view; three.js: see three-LICENSE.txt; sources 26b1185e167301a8b4db417d230db23350d3fa6c55089c93fa96b27841d71a5a */
 "use strict";(()=>{/**
  * @license
  * Copyright 2010-2026 Three.js Authors

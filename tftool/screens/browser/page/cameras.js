@@ -62,7 +62,7 @@ export function fitFlat(name, camera, controls, { middle, size }, free, inset, h
  * Ray through a pixel: its origin and direction.
  * @param {import("three").Camera} camera
  * @param {number} x share of the picture from the left, 0 to 1
- * @param {number} y share from the top
+ * @param {number} y share of the picture from the top
  * @returns {{ origin: number[], way: number[] }}
  */
 export function ray(camera, x, y) {

@@ -99,7 +99,7 @@ export class Choices {
    * Filter names by a regular expression; if the expression is invalid, the last valid one stays.
    * @param {string} id `only` or `not`
    * @param {string} text
-   * @returns {string} what is wrong with it, empty if nothing is
+   * @returns {string} what is wrong with the text; empty if it is valid
    */
   setFilter(id, text) {
     const { expression, error } = compile(text);
@@ -126,7 +126,7 @@ export class Choices {
    * Choose a fixed frame that exists: the user's choice, else the current one, else
    * the root of the largest tree.
    * @param {import("./model.js").Model} model
-   * @returns {boolean} whether it is another one now
+   * @returns {boolean} whether the fixed frame has changed
    */
   settleFixed(model) {
     const before = this.fixed;
@@ -143,7 +143,7 @@ export class Choices {
   /**
    * @param {string | undefined} target
    * @param {string | undefined} source
-   * @param {boolean} byHand whether the user chose it
+   * @param {boolean} byHand whether the user has chosen the pair
    */
   setPair(target, source, byHand = true) {
     this.byHand.pair ||= byHand;

@@ -35,8 +35,8 @@ export function colorOf(place, theme) {
 }
 
 /**
- * Lateness of a link: "" while samples arrive, then "late", then "dead".
- * @param {number} age seconds since its newest sample
+ * Lateness of a frame: "" while samples arrive, then "late", then "dead".
+ * @param {number} age seconds since the newest sample
  * @param {number} rate samples per second; 0 if unknown
  */
 export function lateness(age, rate) {
@@ -140,7 +140,7 @@ export function trail(model, { index, name, color, pose }, choices, until, fine 
   return { name, color, points, ahead: /** @type {number[][]} */ ([]), whole: choices.whole };
 }
 
-/** Whether a frame gets a trail by default: if it moves relative to its parent, not only together with its parent. */
+/** Whether a frame gets a trail by default, which is so if it moves relative to its parent. */
 function leaves(model, index, choices) {
   return model.moves(index) && (choices.byHand.trails || !model.statics[index]);
 }

@@ -50,11 +50,11 @@ export function freshness(connection, model, past) {
   return isStale(model) ? "stale" : "live";
 }
 
-/** Whether links move, but no link has a recent sample. */
+/** Whether frames move, but none of them has a recent sample. */
 function isStale(model) {
   const { poses } = model;
   if (!poses || poses.at !== null || poses.count !== model.names.length) return false;
-  let rate = 0; // period of the fastest link; a link with one sample is never late
+  let rate = 0; // period of the fastest frame; a frame with one sample is never late
   for (let index = 0; index < poses.count; index++) {
     if (model.parents[index] < 0 || model.statics[index] || poses.samplesOf(index) < 2) continue;
     rate = Math.max(rate, poses.rateOf(index));

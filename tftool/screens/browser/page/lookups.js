@@ -132,7 +132,7 @@ function canonical(pose) {
   return leading < 0 ? [...pose.slice(0, 3), -x, -y, -z, -w] : pose;
 }
 
-/** Evenly spaced times between two, nanoseconds. */
+/** Evenly spaced times from one time to another, nanoseconds. */
 function spread(from, to, count) {
   const [first, last] = [nanoseconds(from), nanoseconds(to)];
   return Array.from({ length: count }, (_, step) => first + Math.floor(((last - first) * step) / (count - 1)));
@@ -266,7 +266,7 @@ export class Lookups {
   }
 
   /**
-   * Transform of a pair at evenly spaced times, as the server writes it; null if there is none.
+   * Transform of a pair at evenly spaced times, as the server writes it; null if a lookup fails.
    * @param {{ target: string, source: string, from: number, to: number, count: number }} asked
    */
   series({ target, source, from, to, count }) {
@@ -282,7 +282,7 @@ export class Lookups {
   }
 
   /**
-   * Poses of frames at evenly spaced times, as the server writes them; null if unknown.
+   * Positions of frames at evenly spaced times, as the server writes them; null if unknown.
    * @param {import("./past.js").Asked} asked
    */
   trails({ fixed, frames, from, to, count }) {
@@ -316,7 +316,7 @@ export class Lookups {
     return number;
   }
 
-  /** Compose the poses of several links, lowest first. */
+  /** Compose the poses of several frames in their parents, lowest first. */
   chained(links, time) {
     return links.reduce((pose, index) => {
       const own = this.links[index].at(time) ?? new Array(7).fill(Number.NaN);
@@ -360,7 +360,7 @@ export class Lookups {
     return { up, down, top };
   }
 
-  /** The newest time for which every link between two frames has data; null if all links are static. */
+  /** The newest time for which every frame between two frames has data; null if all are static. */
   latestCommon(target, source) {
     /** @type {number[]} */
     const stamps = [];

@@ -23,7 +23,7 @@ export function onPlane({ origin, way }, normal, through) {
 export class Measure {
   constructor() {
     this.on = false;
-    this.length = ""; // distance between the two ends as text, computed by `told`
+    this.length = ""; // distance between the two ends as text, set by `told`
     /** @type {End[]} */
     this.ends = [];
   }

@@ -252,13 +252,13 @@ export class Model {
     return Math.max(0, (this.heardAt - heard.when) / 1000);
   }
 
-  /** Seconds since the last new data; 0 while the session's time stands still. */
+  /** Seconds since the last new data; 0 while the session's clock is stopped. */
   unheard() {
     if (!this.poses || this.poses.now === this.fresh.now) return 0;
     return (this.heardAt - this.fresh.when) / 1000;
   }
 
-  /** Like `unheard`, for display; but data that was old when the page opened has the age of its stamp. */
+  /** Seconds since the last new data, to display; for data that was old when the page opened, its age. */
   quiet() {
     if (!this.poses || !this.fresh.isFirst) return this.unheard();
     return Math.max(this.unheard(), (this.poses.now - this.poses.newest) / this.rate);

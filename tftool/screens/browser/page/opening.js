@@ -51,7 +51,7 @@ export function planar(poses) {
 }
 
 /**
- * Whether moving frames get trails by default, which is so if there are few moving frames.
+ * Whether moving frames get trails by default: only if there are few moving frames.
  * @param {import("./model.js").Model} model
  */
 export function trailsPay(model) {
@@ -60,7 +60,7 @@ export function trailsPay(model) {
 }
 
 /**
- * Whether trails are whole paths by default, which is so if very few frames move.
+ * Whether trails are whole paths by default: only if very few frames move.
  * @param {import("./model.js").Model} model
  */
 export function wholePays(model) {
@@ -73,7 +73,7 @@ function movingLinks(model) {
 }
 
 /**
- * Whether a frame is a turtle, by the names that turtlesim gives them.
+ * Whether a frame has a name that turtlesim gives to turtles.
  * @param {string} name
  */
 export function isTurtle(name) {

@@ -26,8 +26,7 @@ export function listed({ children, roots, looped }) {
 }
 
 /**
- * Rows that a filter leaves: matching frames, and those above them, without which
- * their place in the tree would be unknown.
+ * Rows that a filter shows: matching frames, and their ancestors, which show the place in the tree.
  * @param {Forest} forest
  * @param {(index: number) => boolean} matches
  * @returns {Set<number>}
@@ -47,7 +46,7 @@ export function kept({ parents, children }, matches) {
  * @param {number} from index of a frame
  * @param {{ visible: number[], parents: number[], opened: (index: number) => boolean | null }} list
  *   opened: null for a row without children
- * @returns {{ go?: number, open?: boolean } | null} null for a key that leads nowhere
+ * @returns {{ go?: number, open?: boolean } | null} null if the key has no effect
  */
 export function led(key, from, { visible, parents, opened }) {
   const place = visible.indexOf(from);

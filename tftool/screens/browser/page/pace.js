@@ -25,7 +25,7 @@ export class Pace {
   }
 
   /**
-   * Begin an animation frame. True if the picture, now at rest, must be drawn again in full.
+   * Begin an animation frame. True if nothing moves any more, and the picture must be drawn again in full resolution.
    * @param {number} now milliseconds
    */
   tick(now) {

@@ -26,7 +26,7 @@ export class Past {
     this.pieces = new Map();
   }
 
-  /** Drop all pieces, because the tree or the session is another one. */
+  /** Drop all pieces, because the tree or the session has changed. */
   forget() {
     this.pieces.clear();
   }
@@ -40,7 +40,7 @@ export class Past {
   }
 
   /**
-   * Show frames between two times; request missing pieces, and the next ones.
+   * Show frames between two times; request the missing pieces and the following pieces.
    * @param {string} fixed
    * @param {string[]} frames
    * @param {number} from

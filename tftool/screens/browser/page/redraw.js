@@ -18,7 +18,7 @@ export class Redraw {
 
   /**
    * New data: the picture follows when the update interval allows it.
-   * @param {boolean} moved whether anything is elsewhere now; if not, the picture has time
+   * @param {boolean} moved whether any frame has moved; if not, the picture is not urgent
    */
   data(moved = true) {
     this.pictureDue = true;
@@ -42,7 +42,7 @@ export class Redraw {
   }
 
   /**
-   * Parts to draw in the animation frame at `now`; their flags are cleared.
+   * Parts to draw in the animation frame at `now`; clears the flags of these parts.
    *
    * @param {number} now milliseconds
    * @param {number} interval least time between two pictures of data, milliseconds

@@ -5,7 +5,7 @@ const CELL = 34; // smallest width of a cell, pixels
 const PARTS = 4; // parts of a line, each more faded than the part before
 
 /**
- * The least of 1, 2, 5, 10, 20, … that is not below a length.
+ * The smallest of 1, 2, 5, 10, 20, … that is at least a length.
  * @param {number} length
  */
 export function round(length) {

@@ -147,7 +147,7 @@ export class Solids {
     this.mesh.geometry = joined;
   }
 
-  /** Pose of a part: on its link, times the link's. */
+  /** Pose of a part: the pose of its link, times the part's pose on the link. */
   matrixOf({ link, matrix }) {
     return new Matrix4().fromArray(this.places.numbers, 16 * link).multiply(matrix);
   }

@@ -4,7 +4,7 @@ import { drive } from "./kinematics.js";
 import { Lookups, nanoseconds } from "./lookups.js";
 import { Packed } from "./packed.js";
 
-/** @returns {Packed | null} data of a saved page; null for a served one */
+/** @returns {Packed | null} data of a saved page; null for a page from a server */
 export function packed() {
   const found = /** @type {any} */ (globalThis).tftoolPacked;
   return found ? new Packed(found.header, found.bytes) : null;

@@ -145,7 +145,7 @@ export class Wire {
     this.send({ type: "move", joint, position });
   }
 
-  /** Drive the turtle of a world that has one. */
+  /** Drive the turtle, if the world has a turtle. */
   press(key) {
     this.send({ type: "key", key });
   }
