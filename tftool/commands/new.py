@@ -69,7 +69,7 @@ LINES: Final = {
     "static_frame": {
         "t.header.frame_id": "TODO: t.header.frame_id, the frame in which the shelf is measured",
         "t.child_frame_id": "TODO: t.child_frame_id, the frame that is new",
-        "t.transform.translation.z": "TODO: how high the shelf is, in metres",
+        "t.transform.translation.z": "TODO: the height of the shelf, in metres",
     },
     "turtle_broadcaster": {
         "t.header.frame_id": "TODO: t.header.frame_id, the frame in which the pose is given",
@@ -79,7 +79,7 @@ LINES: Final = {
     },
     "turtle_follower": {
         "found": 'raise TransformException("TODO: look the transform up, as `found`")',
-        "command.linear.x": "TODO: command.linear.x, half of how far the goal is",
+        "command.linear.x": "TODO: command.linear.x, half of the distance to the goal",
         "command.angular.z": "TODO: command.angular.z, the direction of the goal",
     },
     "fixed_carrot": {

@@ -170,7 +170,7 @@ class Canvas:
         return inside
 
     def _ground_color(self, role: str, field: TurtleField | None) -> Numbers | int:
-        """Return the packed colour of a role such as "grid"; with a field, the colour of each cell.
+        """Return the colour (0xRRGGBB) of a role such as "grid"; with a field, one for each cell.
 
         The roles are the names of colours in `PaperColors`.
         """
@@ -211,7 +211,7 @@ class Canvas:
             cache.dots.draw(self._ends(lines[some]), colors[some], one)
 
     def _faint(self, colors: Numbers, field: TurtleField | None) -> Numbers:
-        """Return paler versions of the packed colours of cells, for the trails."""
+        """Return paler versions of the colours (0xRRGGBB) of cells, for the trails."""
         beside = colors
         if self._palette is theme.LIGHT:
             beside = blended(beside, theme.INK, 0.55)

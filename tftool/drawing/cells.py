@@ -151,7 +151,7 @@ class Dots:
 
     Attributes:
         masks: Dots of each cell, as the bits of Unicode's braille characters.
-        colors: Packed colour of each cell: the colour of the last dot drawn there.
+        colors: Colour (0xRRGGBB) of each cell: the colour of the last dot drawn there.
     """
 
     def __init__(self, columns: int, rows: int) -> None:
@@ -163,7 +163,7 @@ class Dots:
 
         Args:
             ends: Both ends of each line in dots, right and down, shape (n, 2, 2).
-            colors: Packed colour of each line, or one colour for all lines.
+            colors: Colour (0xRRGGBB) of each line, or one colour for all lines.
             wide: Width of the lines in dots.
         """
         rows, columns = self.masks.shape
@@ -249,7 +249,7 @@ class CellSheet:
 
     Attributes:
         texts: Character of each cell; empty behind a wide character.
-        inks: Packed colour of each character.
+        inks: Colour (0xRRGGBB) of each character.
         grounds: Packed background colour of each cell.
         bold: Whether each character is bold.
     """
@@ -267,7 +267,7 @@ class CellSheet:
 
         Args:
             dots: The dots.
-            colors: Packed colour of each cell, or one colour for all cells; None for the colours in
+            colors: Colour (0xRRGGBB) of each cell, or one for all cells; None for the colours in
                 `dots`.
             ascii_only: Whether to write ASCII characters instead of braille.
         """
@@ -301,7 +301,7 @@ class CellSheet:
             column: Column of the first cell.
             row: Row of the cells.
             text: Text, which must fit into the row.
-            inks: Packed colour, or one packed colour per cell.
+            inks: Colour (0xRRGGBB), or one colour per cell.
             bold: Whether to write in bold.
             clears: Whether to reset the background to the terminal's default.
         """

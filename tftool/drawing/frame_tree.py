@@ -389,7 +389,7 @@ def compact(
         columns.row(
             place,
             drawing.first(
-                branch, columns.room, marked=bool(_wrong(branch, marks or {})), more=more
+                branch, columns.first_width, marked=bool(_wrong(branch, marks or {})), more=more
             ),
         )
         for place, branch in enumerate(rows)

@@ -418,7 +418,7 @@ def pair_plot(
     """Draw the distance between two frames over time and, if there is room, their relative yaw.
 
     Args:
-        path: Poses of the pair, NaN at times without a pose; the whole path sets the scale.
+        path: Poses of the pair, NaN at times without a pose. The scale fits the whole path.
         span: Span of time to draw.
         width: Width in cells.
         height: Height in lines.

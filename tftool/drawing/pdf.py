@@ -42,11 +42,11 @@ def _char_width(char: str) -> int:
     return _WIDE if ord(char) >= 0x1100 else _OTHER
 
 
-def fit(text: str, size: float, room: float, *, bold: bool = False) -> str:
-    """Shorten a text in the middle until its width is at most `room`, in the unit of `size`."""
-    if width(text, size, bold=bold) <= room:
+def fit(text: str, size: float, limit: float, *, bold: bool = False) -> str:
+    """Shorten a text in the middle until its width is at most `limit`, in the unit of `size`."""
+    if width(text, size, bold=bold) <= limit:
         return text
-    budget = room - width("…", size, bold=bold)
+    budget = limit - width("…", size, bold=bold)
     head, tail = 0, len(text)
     while head < tail:
         from_head = head <= len(text) - tail

@@ -114,7 +114,7 @@ class ColoredLines:
 
     Attributes:
         ends: Both ends of each line, metres, shape (n, 2, 3).
-        colors: Packed colour of each line, shape (n,).
+        colors: Colour (0xRRGGBB) of each line, shape (n,).
     """
 
     ends: npt.NDArray[np.float64] = field(default_factory=lambda: np.zeros((0, 2, 3)))

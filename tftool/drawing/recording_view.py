@@ -269,7 +269,7 @@ def table(
     ]
     longest = max(map(cell_len, [heads[0], *(row[0] for row in rows)]))
     fitted = fit(columns, width - 2, reserved=longest, longest=longest)
-    names = [Text(middle_cut(row[0], fitted.room)) for row in rows]
+    names = [Text(middle_cut(row[0], fitted.first_width)) for row in rows]
     shown = [fitted.heading(heads[0]), *(fitted.row(at, name) for at, name in enumerate(names))]
     return [f"  {line.plain}" for line in shown]
 

@@ -188,7 +188,7 @@ class _Writer:
         fitted = fit(columns, room, reserved=wanted, longest=longest, more=self.more)
         told = []
         for place, name in enumerate(names):
-            shown = middle_cut(name, fitted.room, more=self.more)
+            shown = middle_cut(name, fitted.first_width, more=self.more)
             row = Text(INDENT).append_text(fitted.row(place, Text(shown)))
             if lists and self.width is None:
                 rest = fitted.width - row.cell_len + len(INDENT)

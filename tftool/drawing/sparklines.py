@@ -97,18 +97,18 @@ class TrafficHistory:
         return tuple(self._looks.get(frame, ()))
 
     def columns(
-        self, frames: Iterable[str], room: int, *, ascii_only: bool = False
+        self, frames: Iterable[str], width: int, *, ascii_only: bool = False
     ) -> list[TableColumn]:
         """Return two columns, of rates and of delays, that fit beside a table.
 
         Args:
             frames: The frame of each row.
-            room: Free cells beside the table; if there is room for one column only, the rates are
+            width: Free cells beside the table; if there is room for one column only, the rates are
                 shown.
             ascii_only: Whether to draw with ASCII characters only.
         """
-        count = 2 if room >= 2 * (LEAST_CELLS + GAP) else 1
-        cells = min(CELLS, room // count - GAP)
+        count = 2 if width >= 2 * (LEAST_CELLS + GAP) else 1
+        cells = min(CELLS, width // count - GAP)
         if cells < LEAST_CELLS:
             return []
         kept = [self.looks(name) for name in frames]

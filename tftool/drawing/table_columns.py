@@ -54,24 +54,24 @@ class FittedColumns:
     Attributes:
         columns: Columns from left to right.
         widths: Width of each column in cells.
-        room: Width of the first column in cells.
+        first_width: Width of the first column in cells.
         more: Sign that replaces omitted text.
     """
 
     columns: tuple[TableColumn, ...]
     widths: tuple[int, ...]
-    room: int
+    first_width: int
     more: str = "…"
 
     @property
     def width(self) -> int:
         """Width of the longest line in cells."""
-        return self.room + sum(GAP + width for width in self.widths)
+        return self.first_width + sum(GAP + width for width in self.widths)
 
     def heading(self, first: str) -> Text:
         """Return the line of headings; `first` is the first column's heading."""
-        shown = middle_cut(first, self.room, more=self.more)
-        line = shown + " " * (self.room - cell_len(shown))
+        shown = middle_cut(first, self.first_width, more=self.more)
+        line = shown + " " * (self.first_width - cell_len(shown))
         for one, width in zip(self.columns, self.widths, strict=True):
             line += " " * GAP + one.written(one.heading, width, self.more)
         return Text(line.rstrip(), style="dim")
@@ -79,7 +79,7 @@ class FittedColumns:
     def row(self, index: int, first: Text) -> Text:
         """Return the line of the row `index`; `first` is the first column's text."""
         line = Text(no_wrap=True, overflow="crop").append_text(first)
-        line.append(" " * (self.room - first.cell_len))
+        line.append(" " * (self.first_width - first.cell_len))
         for one, width in zip(self.columns, self.widths, strict=True):
             text, style = one.cells[index]
             line.append(" " * GAP).append(one.written(text, width, self.more), style=style)
@@ -155,12 +155,12 @@ def middle_cut(text: str, width: int, *, more: str = "…") -> str:
     return "".join(start) + more + "".join(reversed(end))
 
 
-def _within(signs: Iterable[str], room: int) -> list[str]:
-    """Return as many characters from the beginning of `signs` as fit into `room` cells."""
+def _within(signs: Iterable[str], width: int) -> list[str]:
+    """Return as many characters from the beginning of `signs` as fit into `width` cells."""
     kept = []
     for sign in signs:
-        room -= cell_len(sign)
-        if room < 0:
+        width -= cell_len(sign)
+        if width < 0:
             break
         kept.append(sign)
     return kept

@@ -158,17 +158,17 @@ def _rows(
     return [
         fitted.heading(heading),
         *(
-            fitted.row(place, Text(middle_cut(name, fitted.room, more=more), style=style))
+            fitted.row(place, Text(middle_cut(name, fitted.first_width, more=more), style=style))
             for place, (name, style) in enumerate(names)
         ),
     ]
 
 
-def _within(rows: list[Text], room: int) -> list[Text]:
-    """Return the rows that fit into `room` lines; a last line shows the number of omitted rows."""
-    if len(rows) <= max(2, room):
+def _within(rows: list[Text], height: int) -> list[Text]:
+    """Return the rows that fit into `height` lines; the last line counts the omitted rows."""
+    if len(rows) <= max(2, height):
         return rows
-    kept = max(1, room - 1)
+    kept = max(1, height - 1)
     return [*rows[:kept], Text(f"{len(rows) - kept} more", style="bold")]
 
 

@@ -96,9 +96,9 @@ def _show_hosted(
         around = partial(recorded, path=options.recording)
     play = build(left_to_a_person(chosen), connection.providers.wall_clock(options.rate))
     world, link = play.world, decision.link
-    if decision.alone:
+    if decision.not_shared:
         # Notices printed before the screen opens would be hidden behind it.
-        world.log.warn("session", decision.alone)
+        world.log.warn("session", decision.not_shared)
 
     async def life() -> None:
         until = _end(options, world)

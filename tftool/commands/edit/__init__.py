@@ -113,7 +113,7 @@ class EditOptions(Command, shares=False, poses=True):
         panel=WHEN,
     )
     split_every: Duration = seconds_option(
-        "Write a folder of files of SECONDS each; every file begins with all static transforms.",
+        "Write a folder of files, each SECONDS long; every file begins with all static transforms.",
         default=0,
         panel=OUTPUT,
     )

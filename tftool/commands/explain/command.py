@@ -1,4 +1,4 @@
-"""Implementation of `tftool explain`: why a lookup succeeds or fails, by joints or by edges."""
+"""Implementation of `tftool explain`: why a lookup succeeds or fails, transform by transform."""
 
 from typing import TYPE_CHECKING, Any
 

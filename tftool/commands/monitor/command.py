@@ -474,9 +474,7 @@ def _pair_and_source(words: list[str]) -> tuple[tuple[str, str] | None, str | No
     One word is FROM; two words are the target and the source frame; a third word is FROM.
     """
     if len(words) > 3:
-        raise UsageError(
-            f"{len(words)} words are too many: write two frames or none, then at most one FROM."
-        )
+        raise UsageError(f"{len(words)} words are too many: write [TARGET SOURCE] [FROM].")
     if len(words) < 2:
         place = words[0] if words else None
         return None, place

@@ -180,7 +180,7 @@ def run(connection: Connection, options: RunOptions) -> int:
         world = session.world
         tell_log(world)
         turtles = running.TurtlesOnDemand(world)
-        on_demand = options.place is None and not alone and not connection.looks
+        on_demand = options.place is None and not alone and not connection.only_observes
         if on_demand:
             finder.on_import |= dict.fromkeys(running.TURTLE_PACKAGES, turtles.host_from_program)
             if session.is_hosted:

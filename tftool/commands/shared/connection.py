@@ -150,7 +150,7 @@ class Connection:
         return self.mode is Mode.JOIN or self.read_only or self.reach.is_asked
 
     @property
-    def looks(self) -> bool:
+    def only_observes(self) -> bool:
         """Whether the command only observes; the world of such a command is not shared."""
         return self.reach.awaits_others(hosts=self.kind.hosts_turtles)
 

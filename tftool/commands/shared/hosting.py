@@ -53,12 +53,12 @@ class JoinDecision:
     Attributes:
         session: Joined session; None if the command must host a session.
         link: Connection through which other processes join; None if the hosted world is not shared.
-        alone: Sentence on why the hosted world is not shared; empty if the world is shared.
+        not_shared: Sentence on why the hosted world is not shared; empty if the world is shared.
     """
 
     session: Session | None = None
     link: "Link | None" = None
-    alone: str = ""
+    not_shared: str = ""
 
 
 def join_or_host(
@@ -84,12 +84,12 @@ def join_or_host(
     connection.refuse_to_join(word)
     link, alone = _open_link(connection)
     if link is None:
-        return JoinDecision(alone=alone)
+        return JoinDecision(not_shared=alone)
     there = link.graph.has_sources
     if word is None and connection.mode is not Mode.HOST:
         # With --connect, the user wants the world on the other machine, even if it starts later;
         # hosted turtles would mix with a robot's frames.
-        if connection.looks or (there and (not needs_turtles or _has_host(link))):
+        if connection.only_observes or (there and (not needs_turtles or _has_host(link))):
             session = joined_session(
                 link,
                 connection.providers.joined_clock(),
@@ -119,14 +119,14 @@ def join_or_host(
                 "demo', or leave out --join and --read-only, so that this command starts "
                 f"one.{looks}"
             )
-    elif alone := _why_alone(connection, link):
+    elif alone := _why_not_shared(connection, link):
         link.close()
         notice(alone)
-        return JoinDecision(alone=alone)
+        return JoinDecision(not_shared=alone)
     return JoinDecision(link=link)
 
 
-def _why_alone(connection: Connection, link: "Link") -> str:
+def _why_not_shared(connection: Connection, link: "Link") -> str:
     """Return a sentence on why a hosted world cannot be shared; "" if sharing is possible."""
     if _has_host(link):
         name = session_name(link, connection.place)

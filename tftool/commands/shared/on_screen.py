@@ -35,7 +35,7 @@ def screen_lacks() -> str:
 
 
 class ScreenOptions(Protocol):
-    """Options of every command that has a screen; `Ascii` and `Light` are their declarations."""
+    """Options of every command that has a screen; `Ascii` and `Light` declare these options."""
 
     ascii_only: bool
     light: bool

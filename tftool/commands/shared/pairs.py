@@ -70,7 +70,7 @@ class FramePair:
         return buffer.why_not_full(self.target, LATEST, self.source, then, self.fixed_frame)
 
     def newest(self, buffer: Buffer) -> Stamp:
-        """Return the newest time at which the pair can be looked up; 0 if all edges are static."""
+        """Return the newest time at which the pair can be looked up; 0 if all is static."""
         return buffer.newest_common(self.fixed_frame or self.target, self.source)
 
 

@@ -34,8 +34,7 @@ class ShownRobot:
         folders: Folders of the robot's meshes.
         mover: Node of this process that moves the joints; None without such a node.
         prefix: Text before the link's name in the name of each frame of the robot.
-        rest: Joint positions at first, if the page itself moves the joints; None if a node
-            publishes joint positions.
+        rest: Initial joint positions if the page itself moves the joints; None if a node does so.
     """
 
     robot: Robot

@@ -500,7 +500,7 @@ class PageServer:
             await asyncio.gather(*tasks, return_exceptions=True)
 
     async def _tell_past(self, socket: ServerConnection) -> None:
-        """Send poses at times spread over the whole buffer; the page draws the poses as trails."""
+        """Send the poses at times spread over the whole buffer, which the page draws as trails."""
         clock, now = pace_of(self.source.clock), self.source.clock.now()
         for moment in protocol.moments(self.source.buffer.snapshot(now).frames):
             began = clock.now()

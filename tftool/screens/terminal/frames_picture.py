@@ -58,7 +58,7 @@ def in_snapshot(snapshot: Snapshot) -> Lookup:
 
 
 def moving(snapshot: Snapshot, fixed: str) -> list[str]:
-    """Return frames that may move relative to `fixed`; one of each group that moves together."""
+    """Return frames that may move relative to `fixed`; of rigidly connected frames, only one."""
     moves: dict[str, bool] = {}
     for info in snapshot.frames:
         chain: list[FrameInfo] = []

@@ -407,7 +407,7 @@ def _inked(strokes: Sequence[Stroke], turtles: Sequence[_SeenTurtle]) -> list[St
     """Return the strokes, with each turtle's colour in place of the simulator's default colour.
 
     Args:
-        strokes: The newest strokes, oldest first; the last stroke of a turtle ends at the turtle.
+        strokes: The newest strokes, oldest first. Each turtle's last stroke ends at the turtle.
         turtles: Present turtles.
     """
     ends = {turtle.name: (turtle.x, turtle.y) for turtle in turtles}
