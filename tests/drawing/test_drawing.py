@@ -195,7 +195,7 @@ def test_mermaid_says_what_it_leaves_out():
     )
 
     assert shorter.left_out == 0
-    assert "rate only" in shorter.note
+    assert "only their rate" in shorter.note
     assert (cut.left_out, cut.content.count("-->|")) == (4550, 449)
     assert "450 of 5000 frames shown, 4550 left out" in cut.note
     assert "450 of 5000 frames shown" in cut.content
