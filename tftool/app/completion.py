@@ -8,7 +8,7 @@ session are read from files that the processes of the session write.
 import contextlib
 import os
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
@@ -17,7 +17,7 @@ from tftool.base.errors import InputError, TftoolError, UsageError
 from tftool.scenario import builtin
 
 if TYPE_CHECKING:
-    from tftool.ros.host.workspace import Workspace
+    from tftool.ros.host.package_files import Package
 
 VARIABLE: Final = "_TFTOOL_COMPLETE"
 """Environment variable that the scripts set to the name of the shell."""
@@ -259,30 +259,27 @@ def _read_frames(word: str) -> list[str]:
     return kept or []
 
 
-def _workspace_here() -> "Workspace":
-    """Return the workspace around the current folder, for looking up ROS packages."""
+def _offered_of_package(
+    before: Sequence[str], names_in: Callable[["Package"], Iterable[str]]
+) -> Iterator[Offer]:
+    """Yield the ROS packages below the current folder, or names of a typed package.
+
+    Args:
+        before: Words that were typed after the command.
+        names_in: Function that returns the names to offer after the name of a package.
+    """
     from tftool.ros.host.workspace import Workspace
 
-    return Workspace(Path.cwd())
-
-
-def _packages(before: Sequence[str]) -> Iterator[Offer]:
-    """Yield the ROS packages below the current folder, or the executables of a typed package."""
-    packages = _workspace_here().packages
+    packages = Workspace(Path.cwd()).packages
     if not before:
         yield from ((name, "package") for name in sorted(packages))
     elif len(before) == 1 and before[0] in packages:
-        yield from ((name, "") for name in sorted(packages[before[0]].scripts))
+        yield from ((name, "") for name in sorted(names_in(packages[before[0]])))
 
 
-def _launches(before: Sequence[str]) -> Iterator[Offer]:
-    """Yield the ROS packages below the current folder, or the launch files of a typed package."""
-    packages = _workspace_here().packages
-    if not before:
-        yield from ((name, "package") for name in sorted(packages))
-    elif len(before) == 1 and before[0] in packages:
-        folder = packages[before[0]].path / "launch"
-        yield from ((path.name, "") for path in sorted(folder.glob("*launch.*")))
+def _launch_files(package: "Package") -> Iterator[str]:
+    """Yield the names of the launch files of a package."""
+    yield from (path.name for path in (package.path / "launch").glob("*launch.*"))
 
 
 def _ros2(before: Sequence[str]) -> Iterator[Offer]:
@@ -296,8 +293,8 @@ def _ros2(before: Sequence[str]) -> Iterator[Offer]:
 
 _WORDS: Final[dict[str, Callable[[Sequence[str]], Iterator[Offer]]]] = {
     "ros2": _ros2,
-    "run": _packages,
-    "launch": _launches,
+    "run": lambda before: _offered_of_package(before, lambda package: package.scripts),
+    "launch": lambda before: _offered_of_package(before, _launch_files),
 }
 """Function that completes the words of a command: packages, launch files, verbs of ROS 2."""
 
