@@ -11,37 +11,43 @@ from tftool.geometry.conversions import rpy_from_quaternion
 from tftool.geometry.rigid import Transform
 
 
-def lines(found: Calibration, width: int | None = None) -> str:
+def lines(calibration: Calibration, width: int | None = None) -> str:
     """Return a calibration as text: mounting pose in tf2's format, clock offset, verdict.
 
     Args:
-        found: The calibration.
+        calibration: The calibration.
         width: Maximum length of a line in cells; None for no limit.
     """
     text: list[str] = []
-    moving, fixed = ([visible(name) for name in names] for names in (found.moving, found.fixed))
+    moving, fixed = (
+        [visible(name) for name in names] for names in (calibration.moving, calibration.fixed)
+    )
     if moving[0] == moving[1]:
         moving = [f"{name} of {side}" for name, side in zip(moving, "AB", strict=True)]
     if fixed[0] == fixed[1]:
         fixed = [f"{name} of {side}" for name, side in zip(fixed, "AB", strict=True)]
     for title, pose, interval in (
-        (f"Mount: {moving[1]} in {moving[0]}", found.mount, found.interval95),
-        (f"Fixed frames: {fixed[1]} in {fixed[0]}", found.fixed_mount, found.fixed_interval95),
+        (f"Mount: {moving[1]} in {moving[0]}", calibration.mount, calibration.interval95),
+        (
+            f"Fixed frames: {fixed[1]} in {fixed[0]}",
+            calibration.fixed_mount,
+            calibration.fixed_interval95,
+        ),
     ):
         if pose is not None and interval is not None:
             text += [title, *_pose(pose, interval), ""]
-    if found.clock_offset is not None:
-        text.append(_clock(found))
-    if found.scale is not None:
-        text.append(f"Scale of A: {found.scale[0]:.5f} ± {found.scale[1]:.5f}")
-    if found.halves_differ is not None:
-        metres, degrees = found.halves_differ
+    if calibration.clock_offset is not None:
+        text.append(_clock(calibration))
+    if calibration.scale is not None:
+        text.append(f"Scale of A: {calibration.scale[0]:.5f} ± {calibration.scale[1]:.5f}")
+    if calibration.halves_differ is not None:
+        metres, degrees = calibration.halves_differ
         text.append(f"Halves of the recording differ by {metres * 1e3:.1f} mm, {degrees:.2f}°")
-    for note in found.notes:
+    for note in calibration.notes:
         text += wrapped(visible(note), width)
-    text += wrapped(f"{found.verdict}: {visible(found.why)}", width)
-    if found.next_motion:
-        text += wrapped(f"To record next: {found.next_motion}.", width)
+    text += wrapped(f"{calibration.verdict}: {visible(calibration.why)}", width)
+    if calibration.next_motion:
+        text += wrapped(f"To record next: {calibration.next_motion}.", width)
     return "".join(f"{line.rstrip()}\n" for line in text)
 
 
@@ -74,52 +80,54 @@ def _clock(found: Calibration) -> str:
     return f"Clock offset: t_A = t_B {found.clock_offset:+.6f} s{half}{drift}{peak}"
 
 
-def clock_object(found: ClockOffset) -> dict[str, float | None]:
+def clock_object(offset: ClockOffset) -> dict[str, float | None]:
     """Return a clock offset as a mapping, for --json."""
     return {
-        "seconds": found.seconds,
-        "interval95": found.interval95,
-        "correlation": found.correlation,
-        "second_peak": found.second,
+        "seconds": offset.seconds,
+        "interval95": offset.interval95,
+        "correlation": offset.correlation,
+        "second_peak": offset.second,
     }
 
 
-def as_object(found: Calibration, check: dict[str, object] | None = None) -> dict[str, object]:
+def as_object(
+    calibration: Calibration, check: dict[str, object] | None = None
+) -> dict[str, object]:
     """Return a calibration as a mapping, for --json.
 
     Args:
-        found: The calibration.
+        calibration: The calibration.
         check: Comparison with the published mounting pose; None if none is published.
     """
     clock = None
-    if found.clock_offset is not None and found.clock is not None:
+    if calibration.clock_offset is not None and calibration.clock is not None:
         clock = {
-            "seconds": found.clock_offset,
-            "interval95": found.offset_interval95,
-            "correlation": found.clock.correlation,
-            "drift_ppm": found.drift_ppm,
+            "seconds": calibration.clock_offset,
+            "interval95": calibration.offset_interval95,
+            "correlation": calibration.clock.correlation,
+            "drift_ppm": calibration.drift_ppm,
         }
-    halves = found.halves_differ
+    halves = calibration.halves_differ
     return {
-        "verdict": found.verdict,
-        "why": found.why,
-        "moving": list(found.moving),
-        "fixed": list(found.fixed),
-        "mount": pose_object(found.mount),
-        "fixed_mount": pose_object(found.fixed_mount),
-        "interval95": _interval_object(found.interval95),
-        "fixed_interval95": _interval_object(found.fixed_interval95),
+        "verdict": calibration.verdict,
+        "why": calibration.why,
+        "moving": list(calibration.moving),
+        "fixed": list(calibration.fixed),
+        "mount": pose_object(calibration.mount),
+        "fixed_mount": pose_object(calibration.fixed_mount),
+        "interval95": _interval_object(calibration.interval95),
+        "fixed_interval95": _interval_object(calibration.fixed_interval95),
         "clock_offset": clock,
         "halves_differ": None if halves is None else {"mm": halves[0] * 1e3, "deg": halves[1]},
-        "unseen": list(found.unseen),
+        "unseen": list(calibration.unseen),
         "unseen_direction": None
-        if found.unseen_direction is None
-        else list(found.unseen_direction),
-        "inverted": list(found.inverted),
-        "next_motion": found.next_motion,
+        if calibration.unseen_direction is None
+        else list(calibration.unseen_direction),
+        "inverted": list(calibration.inverted),
+        "next_motion": calibration.next_motion,
         "scale": None
-        if found.scale is None
-        else {"value": found.scale[0], "interval95": found.scale[1]},
+        if calibration.scale is None
+        else {"value": calibration.scale[0], "interval95": calibration.scale[1]},
         "check": check,
     }
 

@@ -21,20 +21,20 @@ from tftool.frames.trajectory_errors import ErrorColumn, TrajectoryErrors
 HEAD: Final = ("link", "change", "mm", "degrees", "")
 
 
-def lines(found: Differences, width: int | None = None, *, everything: bool = False) -> str:
+def lines(differences: Differences, width: int | None = None, *, everything: bool = False) -> str:
     """Return differences as text: a line for each frame whose transform differs, and a summary.
 
     Args:
-        found: The differences.
+        differences: The differences.
         width: Maximum length of a line in cells; None for no limit. Text that does not fit is
             written below the line of its frame.
         everything: Whether to include the frames whose transforms are equal in A and B.
     """
-    told = found.links if everything else found.changed
-    text = [f"A {visible(found.first)}", f"B {visible(found.second)}"]
+    told = differences.links if everything else differences.changed
+    text = [f"A {visible(differences.first)}", f"B {visible(differences.second)}"]
     if told:
-        text += ["", *_table([_row(one, found.start) for one in told], width), ""]
-    text += wrapped(summary(found), width)
+        text += ["", *_table([_row(one, differences.start) for one in told], width), ""]
+    text += wrapped(summary(differences), width)
     return "".join(f"{line.rstrip()}\n" for line in text)
 
 
@@ -53,49 +53,49 @@ def _table(rows: list[tuple[str, ...]], width: int | None) -> list[str]:
     ]
 
 
-def summary(found: Differences) -> str:
+def summary(differences: Differences) -> str:
     """Return a sentence with the number of transforms that differ between A and B."""
-    count, total = len(found.changed), len(found.links)
-    limit = found.tolerance
+    count, total = len(differences.changed), len(differences.links)
+    limit = differences.tolerance
     measures = [f"{limit.millimetres:g} mm", f"{limit.degrees:g}°"]
     if limit.rate_percent is not None:
         measures.append(f"{limit.rate_percent:g} % of the rate")
     links = "link" if total == 1 else "links"
     if not count:
         return f"{total} {links}, the same within {' and '.join(measures)}."
-    unsure = sum(one.displacement is None and one.is_same for one in found.links)
+    unsure = sum(one.displacement is None and one.is_same for one in differences.links)
     beside = f", {unsure} not measured" if unsure else ""
     differ = "differs" if count == 1 else "differ"
     return f"{count} of {total} {links} {differ} by more than {' or '.join(measures)}{beside}."
 
 
-def as_object(found: Differences) -> dict[str, object]:
+def as_object(differences: Differences) -> dict[str, object]:
     """Return differences as a mapping, for --json."""
-    limit = found.tolerance
+    limit = differences.tolerance
     return {
-        "a": found.first,
-        "b": found.second,
-        "differs": bool(found),
+        "a": differences.first,
+        "b": differences.second,
+        "differs": bool(differences),
         "tolerance": {
             "mm": limit.millimetres,
             "deg": limit.degrees,
             "rate_percent": limit.rate_percent,
         },
-        "shift_ns": found.shift,
-        "notes": list(found.notes),
-        "links": [_link(one) for one in found.links],
+        "shift_ns": differences.shift,
+        "notes": list(differences.notes),
+        "links": [_link(one) for one in differences.links],
     }
 
 
-def as_markdown(found: Differences) -> str:
+def as_markdown(differences: Differences) -> str:
     """Return differences as a Markdown table in which all names are escaped."""
-    rows = [_row(one, found.start) for one in found.changed]
-    text = [f"**tftool diff** {_code(found.first)} {_code(found.second)}", ""]
+    rows = [_row(one, differences.start) for one in differences.changed]
+    text = [f"**tftool diff** {_code(differences.first)} {_code(differences.second)}", ""]
     if rows:
         text += ["| link | change | mm | degrees | |", "| --- | --- | --: | --: | --- |"]
         text += ["| " + " | ".join(_code(cell) for cell in row) + " |" for row in rows]
         text.append("")
-    text.append(summary(found))
+    text.append(summary(differences))
     return "\n".join(text) + "\n"
 
 
@@ -229,59 +229,60 @@ _MATCHES: Final = {
 _FIGURES: Final = ("rmse", "mean", "median", "std", "min", "max")
 
 
-def error_lines(found: TrajectoryErrors, names: tuple[str, str], width: int | None = None) -> str:
+def error_lines(errors: TrajectoryErrors, names: tuple[str, str], width: int | None = None) -> str:
     """Return errors as text: names, number of matched poses, and a line per kind of error.
 
     Args:
-        found: The errors.
+        errors: The errors.
         names: Names of the two compared trajectories.
         width: Maximum length of a line in cells; None for no limit.
     """
     text = [
         f"{side} {visible(name)}: {visible(source)} in {visible(target)}, {total} poses"
         for side, name, (target, source), total in zip(
-            "AB", names, found.pairs, found.counts, strict=True
+            "AB", names, errors.pairs, errors.counts, strict=True
         )
     ]
     rows = []
-    for one in found.columns:
+    for one in errors.columns:
         figures = one.statistics()
-        label = one.name + (f" per {found.step}" if one.name == "rpe" else "")
+        label = one.name + (f" per {errors.step}" if one.name == "rpe" else "")
         rows.append((label, one.unit, *(f"{figures[name]:.6g}" for name in _FIGURES)))
     text += ["", *table(("error", "unit", *_FIGURES), rows, right=_FIGURES), ""]
-    scale = f", scale {found.scale:.6g}" if found.fit == "sim3" else ""
+    scale = f", scale {errors.scale:.6g}" if errors.fit == "sim3" else ""
     text += wrapped(
-        f"{found.matched} poses matched: {_MATCHES[found.match]}; {_FITS[found.fit]}{scale}.", width
+        f"{errors.matched} poses matched: {_MATCHES[errors.match]}; {_FITS[errors.fit]}{scale}.",
+        width,
     )
     return "".join(f"{line.rstrip()}\n" for line in text)
 
 
-def errors_as_object(found: TrajectoryErrors, names: tuple[str, str]) -> dict[str, object]:
+def errors_as_object(errors: TrajectoryErrors, names: tuple[str, str]) -> dict[str, object]:
     """Return the errors between two trajectories as a mapping, for --json."""
-    kinds = dict.fromkeys(one.name for one in found.columns)
+    kinds = dict.fromkeys(one.name for one in errors.columns)
     return {
         "a": names[0],
         "b": names[1],
-        "pairs": [{"target": target, "source": source} for target, source in found.pairs],
-        "poses": list(found.counts),
-        "matched": found.matched,
-        "match": found.match,
-        "fit": found.fit,
-        "scale": found.scale,
-        "per": {"size": found.step.size, "unit": found.step.unit},
+        "pairs": [{"target": target, "source": source} for target, source in errors.pairs],
+        "poses": list(errors.counts),
+        "matched": errors.matched,
+        "match": errors.match,
+        "fit": errors.fit,
+        "scale": errors.scale,
+        "per": {"size": errors.step.size, "unit": errors.step.unit},
         **{
-            kind: {one.unit: one.statistics() for one in found.columns if one.name == kind}
+            kind: {one.unit: one.statistics() for one in errors.columns if one.name == kind}
             for kind in kinds
         },
     }
 
 
-def panels(found: TrajectoryErrors) -> list[PlotPanel]:
+def panels(errors: TrajectoryErrors) -> list[PlotPanel]:
     """Return plot panels of the errors over time, in seconds since the first matched pose."""
-    start = min(int(one.stamps[0]) for one in found.columns)
+    start = min(int(one.stamps[0]) for one in errors.columns)
     return [
         PlotPanel(one.name.upper(), one.unit.replace("deg", "°"), (_curve(one, start),))
-        for one in found.columns
+        for one in errors.columns
     ]
 
 

@@ -17,7 +17,7 @@ class Forest:
 
     Attributes:
         roots: Frames without a parent, and one frame of every loop.
-        loops: The roots that have a parent, because they are in a loop. The edge to this parent is
+        loops: The roots that have a parent, because they are in a loop. The line to this parent is
             not drawn.
         children: Children to draw of every drawn frame, in order of registration.
         hidden: Number of omitted frames below a drawn frame, by the name of the drawn frame.
@@ -160,7 +160,7 @@ class Branch:
         depth: Number of levels below the root.
         are_last: Whether each frame on the path from the root's child to this frame is the last
             child of its parent; for a deep frame, only the last `DEEPEST` values.
-        closes_loop: Whether the edge to this frame's parent closes a loop, and so is not drawn.
+        closes_loop: Whether the line to this frame's parent closes a loop, and so is not drawn.
     """
 
     info: FrameInfo

@@ -23,7 +23,7 @@ def in_words(target: str, source: str) -> str:
 
 
 def block(
-    found: TransformStamped,
+    transform: TransformStamped,
     *,
     precision: int = 3,
     with_distance: bool = False,
@@ -35,7 +35,7 @@ def block(
     the exact stamp.
 
     Args:
-        found: Result of a lookup.
+        transform: Result of a lookup.
         precision: Number of decimals.
         with_distance: Whether to add a line with the length of the translation.
         quaternion_tag: Text after "Quaternion": " (xyzw)" as in newer releases of tf2_echo.
@@ -43,9 +43,9 @@ def block(
     Returns:
         Lines, each with its newline.
     """
-    pose = found.transform
+    pose = transform.transform
     rpy = quaternions.rpy(pose.rotation)
-    whole, rest = divmod(found.stamp, NANOSECONDS)
+    whole, rest = divmod(transform.stamp, NANOSECONDS)
     lines = [
         f"At time {whole}.{rest}",
         f"- Translation: {_list(pose.translation, precision)}",
@@ -66,7 +66,9 @@ AXIS_STYLES = ("red", "green", "bright_blue", "")
 _NUMBER = re.compile(r"(?<![\w.])-?(?:\d+(?:\.\d+)?(?:e[-+]?\d+)?|nan|inf)(?![\w.])")
 
 
-def painted(found: TransformStamped, *, precision: int = 3, with_distance: bool = False) -> "Text":
+def painted(
+    transform: TransformStamped, *, precision: int = 3, with_distance: bool = False
+) -> "Text":
     """Return the lines of `block` for a terminal, with x, y and z in the colours of the axes.
 
     Roll, pitch and yaw have the colours of the axes x, y and z. The columns of the matrix have the
@@ -75,7 +77,7 @@ def painted(found: TransformStamped, *, precision: int = 3, with_distance: bool 
     from rich.text import Text
 
     text = Text()
-    for line in block(found, precision=precision, with_distance=with_distance).splitlines():
+    for line in block(transform, precision=precision, with_distance=with_distance).splitlines():
         row = Text(line)
         if line.startswith(("At time", "- Distance")):
             row.stylize("dim" if line.startswith("At") else "bold", len(line.rpartition(" ")[0]))
@@ -124,17 +126,17 @@ def failure(now: Stamp, error: TransformException, frames: str) -> str:
     )
 
 
-def as_object(found: TransformStamped, *, with_distance: bool = False) -> dict[str, Any]:
+def as_object(transform: TransformStamped, *, with_distance: bool = False) -> dict[str, Any]:
     """Return a transform as a mapping, for --json.
 
     Numbers have full precision, the stamp is in whole nanoseconds, and NaN becomes null.
     """
-    pose = found.transform
+    pose = transform.transform
     rpy = quaternions.rpy(pose.rotation)
     result: dict[str, Any] = {
-        "stamp_ns": found.stamp,
-        "target": found.frame_id,
-        "source": found.child_frame_id,
+        "stamp_ns": transform.stamp,
+        "target": transform.frame_id,
+        "source": transform.child_frame_id,
         "translation": _named(AXES, pose.translation),
         "rotation": _named((*AXES, "w"), pose.rotation),
         "rpy": _named(("roll", "pitch", "yaw"), rpy),

@@ -26,25 +26,25 @@ _WORDS = {
 }
 
 
-def render(found: Explanation) -> RenderableType:
+def render(explanation: Explanation) -> RenderableType:
     """Return an explanation for a terminal: lookup, tf2's error, transforms, cause, remedies."""
     facts = Table.grid(padding=(0, 2), pad_edge=False)
     facts.add_column(no_wrap=True)
     facts.add_column(overflow="fold")
-    if found.text:
-        facts.add_row("tf2", Text(visible_lines(found.text)))
-    after = f" ({span(found.after)} after it)" if found.after else ""
+    if explanation.text:
+        facts.add_row("tf2", Text(visible_lines(explanation.text)))
+    after = f" ({span(explanation.after)} after it)" if explanation.after else ""
     facts.add_row(
         "asked",
-        Text(visible(f"{_exactly(found.asked)}, {found.because}{after}"))
-        if found.because
-        else _exactly(found.asked),
+        Text(visible(f"{_exactly(explanation.asked)}, {explanation.because}{after}"))
+        if explanation.because
+        else _exactly(explanation.asked),
     )
-    parts: list[RenderableType] = [_headline(found), Text(""), Padding(facts, (0, 0, 0, 2))]
-    if found.links:
-        parts += [Text(""), Padding(_Links(found), (0, 0, 0, 2))]
-    remedies = [(one.text, one.command) for one in found.remedies]
-    parts += [Text(""), reasons("", found.why, remedies, found.useless)]
+    parts: list[RenderableType] = [_headline(explanation), Text(""), Padding(facts, (0, 0, 0, 2))]
+    if explanation.links:
+        parts += [Text(""), Padding(_Links(explanation), (0, 0, 0, 2))]
+    remedies = [(one.text, one.command) for one in explanation.remedies]
+    parts += [Text(""), reasons("", explanation.why, remedies, explanation.useless)]
     return Group(*parts)
 
 
@@ -78,40 +78,43 @@ def reasons(
     return Padding(told, (0, 0, 0, 2))
 
 
-def so_far(found: Explanation) -> list[Text]:
+def so_far(explanation: Explanation) -> list[Text]:
     """Return lines for a live view: the present result of the lookup, and its causes."""
-    line = Text(visible(f"so far: {found.source} in {found.target} "))
-    line.append(*(("answers", "green") if found.available else ("is refused", "bold red")))
-    return [line, *(Text(visible(f"        {why}")) for why in found.why)]
+    line = Text(visible(f"so far: {explanation.source} in {explanation.target} "))
+    line.append(*(("answers", "green") if explanation.available else ("is refused", "bold red")))
+    return [line, *(Text(visible(f"        {why}")) for why in explanation.why)]
 
 
-def _headline(found: Explanation) -> Text:
-    base = _base(found)
-    when = "at the latest" if not found.stamp else f"at {_exactly(found.stamp)}"
-    if found.stamp and base and not _other_clock(found.stamp, base):
-        when = f"at {_since(found.stamp, base)} s"
-    line = Text(visible(f"{found.source} in {found.target} {when}: "))
-    if found.cause is Cause.UNREAD:
+def _headline(explanation: Explanation) -> Text:
+    base = _base(explanation)
+    when = "at the latest" if not explanation.stamp else f"at {_exactly(explanation.stamp)}"
+    if explanation.stamp and base and not _other_clock(explanation.stamp, base):
+        when = f"at {_since(explanation.stamp, base)} s"
+    line = Text(visible(f"{explanation.source} in {explanation.target} {when}: "))
+    if explanation.cause is Cause.UNREAD:
         return line.append("answers here, but no listener receives these transforms", "yellow")
-    if found.available:
+    if explanation.available:
         return line.append("answers", "green")
-    line.append("refused", "bold red").append(_later(found))
-    if found.failed is not None:
+    line.append("refused", "bold red").append(_later(explanation))
+    if explanation.failed is not None:
         return line
     # A live listener has only the samples received so far; `echo` has the whole recording.
     line.append("; a robot has only the data received by then")
-    return line.append(", echo has all data and answers" if found.in_whole else "")
+    return line.append(", echo has all data and answers" if explanation.in_whole else "")
 
 
-def _later(found: Explanation) -> str:
+def _later(explanation: Explanation) -> str:
     """Return a clause about the time at which the lookup would succeed; "" without such a time."""
-    if found.answerable_from is None:
+    if explanation.answerable_from is None:
         return ", and waiting would not help"
-    late = found.answerable_from - found.asked
+    late = explanation.answerable_from - explanation.asked
     if late > 0:
         return f", would answer {span(late)} later"
-    if found.answerable_until is not None and found.answerable_until <= found.asked:
-        return f", would have answered until {_exactly(found.answerable_until)}"
+    if (
+        explanation.answerable_until is not None
+        and explanation.answerable_until <= explanation.asked
+    ):
+        return f", would have answered until {_exactly(explanation.answerable_until)}"
     return ""
 
 
@@ -203,11 +206,11 @@ def _refusal(link: TracedLink) -> str:
     return _WORDS[link.verdict].format(span(link.short_by))
 
 
-def _base(found: Explanation) -> Stamp:
+def _base(explanation: Explanation) -> Stamp:
     """Return the stamp that is shown as 0 s: the first stamp, or 0 for times of a simulation."""
-    if found.stamp and found.stamp < SIMULATED_BELOW:
+    if explanation.stamp and explanation.stamp < SIMULATED_BELOW:
         return 0
-    return found.epoch if found.epoch >= SIMULATED_BELOW else 0
+    return explanation.epoch if explanation.epoch >= SIMULATED_BELOW else 0
 
 
 def _other_clock(stamp: Stamp, base: Stamp) -> bool:
@@ -225,18 +228,18 @@ def _exactly(stamp: Stamp) -> str:
     return f"{sign}{abs(stamp) // NANOSECONDS}.{abs(stamp) % NANOSECONDS:09}"
 
 
-def as_object(found: Explanation) -> dict[str, Any]:
+def as_object(explanation: Explanation) -> dict[str, Any]:
     """Return an explanation as a mapping, for --json; times in nanoseconds, unescaped names."""
     return {
         "schema": SCHEMA,
-        "target": found.target,
-        "source": found.source,
-        "stamp": found.stamp,
-        "asked": found.asked,
-        "available": found.available,
-        "available_in_whole": found.in_whole,
-        "exception": found.exception or None,
-        "text": found.text or None,
+        "target": explanation.target,
+        "source": explanation.source,
+        "stamp": explanation.stamp,
+        "asked": explanation.asked,
+        "available": explanation.available,
+        "available_in_whole": explanation.in_whole,
+        "exception": explanation.exception or None,
+        "text": explanation.text or None,
         "links": [
             {
                 "parent": link.parent,
@@ -249,13 +252,13 @@ def as_object(found: Explanation) -> dict[str, Any]:
                 "verdict": link.verdict.value,
                 "short_by": link.short_by,
             }
-            for link in found.links
+            for link in explanation.links
         ],
-        "refusing": None if found.refusing is None else list(found.refusing),
-        "answerable": {"from": found.answerable_from, "until": found.answerable_until},
-        "cause": found.cause.value,
-        "check": found.check,
-        "why": list(found.why),
+        "refusing": None if explanation.refusing is None else list(explanation.refusing),
+        "answerable": {"from": explanation.answerable_from, "until": explanation.answerable_until},
+        "cause": explanation.cause.value,
+        "check": explanation.check,
+        "why": list(explanation.why),
         "remedies": [
             {
                 "kind": one.kind,
@@ -265,8 +268,8 @@ def as_object(found: Explanation) -> dict[str, Any]:
                 "advised": one.advised,
                 "possible": one.possible,
             }
-            for one in found.remedies
+            for one in explanation.remedies
         ],
-        "useless": list(found.useless),
-        "failed_share": found.failed,
+        "useless": list(explanation.useless),
+        "failed_share": explanation.failed,
     }

@@ -160,7 +160,7 @@ def _trajectories(
 
 
 def write(
-    found: Sequence[Trajectory],
+    trajectories: Sequence[Trajectory],
     file: BinaryIO,
     form: str,
     *,
@@ -175,7 +175,7 @@ def write(
         UsageError: If the extra `plot` is not installed.
     """
     made = _needed("matplotlib.figure").Figure
-    _save(_figure(found, start, quantities, xy, dark, made), file, form)
+    _save(_figure(trajectories, start, quantities, xy, dark, made), file, form)
 
 
 def write_panels(drawn: Sequence[PlotPanel], title: str, file: BinaryIO, form: str) -> None:
@@ -203,22 +203,24 @@ def _needed(module: str) -> Any:
 
 
 def _figure(
-    found: Sequence[Trajectory],
+    trajectories: Sequence[Trajectory],
     start: Stamp,
     quantities: Sequence[str],
     xy: bool,
     dark: bool,
     make: Any,
 ) -> "Figure":
-    title = ", ".join(f"{one.source} in {one.target}" for one in found[:4])
-    title += " …" if len(found) > 4 else ""
+    title = ", ".join(f"{one.source} in {one.target}" for one in trajectories[:4])
+    title += " …" if len(trajectories) > 4 else ""
     if not xy:
-        drawn = panels(found, start, quantities)
-        return _figure_of_panels(drawn, title, shades(found, start), dark, make, len(found) == 1)
+        drawn = panels(trajectories, start, quantities)
+        return _figure_of_panels(
+            drawn, title, shades(trajectories, start), dark, make, len(trajectories) == 1
+        )
     figure = _empty_figure(6.0, dark, make)
     with _needed("matplotlib").rc_context(_settings(dark)):
         figure.suptitle(_plain(title), fontsize=11)
-        _draw_path(figure.subplots(), found, dark)
+        _draw_path(figure.subplots(), trajectories, dark)
     return figure
 
 

@@ -12,21 +12,21 @@ from tftool.doctor.joint_chain import ChainExplanation, ChainLink
 from tftool.drawing.explanation_view import SCHEMA, reasons
 
 
-def render(found: ChainExplanation) -> RenderableType:
+def render(explanation: ChainExplanation) -> RenderableType:
     """Return an explanation for a terminal: lookup, tf2's error, joints, cause, remedy."""
-    headline = Text(visible(f"{found.source} in {found.target}: "))
-    if found.available:
+    headline = Text(visible(f"{explanation.source} in {explanation.target}: "))
+    if explanation.available:
         headline.append("answers", "green")
     else:
         headline.append("refused", "bold red")
     parts: list[RenderableType] = [headline]
-    if found.links:
+    if explanation.links:
         links = Table.grid(padding=(0, 2), pad_edge=False)
         for _ in range(3):
             links.add_column(no_wrap=True)
         links.add_column(overflow="fold")
         links.add_row("link", "joint", "type", "position", style="dim")
-        for link in found.links:
+        for link in explanation.links:
             joint = link.joint
             links.add_row(
                 Text(visible(f"{joint.child} in {joint.parent}")),
@@ -35,7 +35,7 @@ def render(found: ChainExplanation) -> RenderableType:
                 Text(visible(_position(link)), "" if link.is_known else "bold red"),
             )
         parts += [Text(""), Padding(links, (0, 0, 0, 2))]
-    parts += [Text(""), reasons(found.text, found.why, found.remedies)]
+    parts += [Text(""), reasons(explanation.text, explanation.why, explanation.remedies)]
     return Group(*parts)
 
 
@@ -49,16 +49,16 @@ def _position(link: ChainLink) -> str:
     return f"{shown}{follows}{'' if link.is_given else ', at rest'}"
 
 
-def as_object(found: ChainExplanation) -> dict[str, Any]:
+def as_object(explanation: ChainExplanation) -> dict[str, Any]:
     """Return an explanation as a mapping in the schema of `tftool explain`; radians and metres."""
     return {
         "schema": SCHEMA,
-        "target": found.target,
-        "source": found.source,
+        "target": explanation.target,
+        "source": explanation.source,
         "stamp": 0,
-        "available": found.available,
-        "exception": found.exception or None,
-        "text": found.text or None,
+        "available": explanation.available,
+        "exception": explanation.exception or None,
+        "text": explanation.text or None,
         "links": [
             {
                 "parent": link.joint.parent,
@@ -71,14 +71,15 @@ def as_object(found: ChainExplanation) -> dict[str, Any]:
                 "leader": link.leader,
                 "verdict": "answers" if link.is_known else "no-data",
             }
-            for link in found.links
+            for link in explanation.links
         ],
         "refusing": next(
-            ([one.joint.parent, one.joint.child] for one in found.links if not one.is_known), None
+            ([one.joint.parent, one.joint.child] for one in explanation.links if not one.is_known),
+            None,
         ),
-        "cause": found.cause,
-        "why": list(found.why),
+        "cause": explanation.cause,
+        "why": list(explanation.why),
         "remedies": [
-            {"text": text, "command": command or None} for text, command in found.remedies
+            {"text": text, "command": command or None} for text, command in explanation.remedies
         ],
     }

@@ -97,7 +97,7 @@ class PlotLook:
 
 
 def over_time(
-    found: Sequence[Trajectory],
+    trajectories: Sequence[Trajectory],
     start: Stamp,
     quantities: Sequence[str],
     look: PlotLook,
@@ -107,21 +107,21 @@ def over_time(
     """Draw panels below each other on one time axis; times without a pose are shaded.
 
     Args:
-        found: Trajectories of the pairs.
+        trajectories: Trajectories of the pairs.
         start: Stamp that is 0 on the time axis, nanoseconds.
         quantities: Quantities to draw, of `pair_series.QUANTITIES`.
         look: Size and style of the plot.
         span: First and last second of the axis; None for the first and last second of the data.
     """
-    drawn = panels(found, start, quantities)
-    shaded = shades(found, start)
+    drawn = panels(trajectories, start, quantities)
+    shaded = shades(trajectories, start)
     low, high = span or _span(drawn, shaded)
     told = [visible(one) for one in reasons(shaded)]
     text = Text(no_wrap=True, overflow="crop")
-    is_named = len(found) == 1 and not look.numbered
+    is_named = len(trajectories) == 1 and not look.numbered
     if is_named:
         # With several pairs, each curve has its own name; a live plot has a title bar.
-        pair = visible(f"{found[0].source} in {found[0].target}")
+        pair = visible(f"{trajectories[0].source} in {trajectories[0].target}")
         text.append(f"{fitted(pair, look.width)}\n", style="bold")
     numbers = [1 + sum(len(one.curves) for one in drawn[:place]) for place in range(len(drawn))]
     # A panel whose curves are all hidden is only a title, and leaves its lines to the others.
@@ -158,14 +158,14 @@ def over_time(
     return text
 
 
-def from_above(found: Sequence[Trajectory], look: PlotLook) -> Text:
+def from_above(trajectories: Sequence[Trajectory], look: PlotLook) -> Text:
     """Draw each pair's path in the x-y plane, at the same scale on both axes.
 
     Args:
-        found: Trajectories of the pairs.
+        trajectories: Trajectories of the pairs.
         look: Size and style of the plot.
     """
-    curves = path_curves(found)
+    curves = path_curves(trajectories)
     colors = look.colors
     xs = np.concatenate([x for _, x, _ in curves])
     ys = np.concatenate([y for _, _, y in curves])

@@ -20,7 +20,7 @@ _EVERY_NODES = ("rcl_interfaces/", "type_description_interfaces/")
 
 
 def lines(
-    found: Mapping[str, Any],
+    session: Mapping[str, Any],
     *,
     verbose: bool = False,
     width: int | None = None,
@@ -30,25 +30,25 @@ def lines(
     """Return a session's processes, nodes, topics and services as lines; names are escaped.
 
     Args:
-        found: Output of `tftool session --json`.
+        session: Output of `tftool session --json`.
         verbose: Whether to list the services that every node has.
         width: Width in cells to which long lists are wrapped; None for one line per list.
         height: Height of the terminal in lines; longer output is shortened. None for no limit.
         ascii_only: Whether to draw with ASCII only.
     """
     writer = _Writer(width, "~" if ascii_only else "…")
-    told = _processes(writer, found["processes"])
-    ours = {node for one in found["processes"] for node in one["nodes"]}
-    others = [node for node in found["nodes"] if node not in ours]
+    told = _processes(writer, session["processes"])
+    ours = {node for one in session["processes"] for node in one["nodes"]}
+    others = [node for node in session["nodes"] if node not in ours]
     if others:
         told += writer.heading("Other nodes", len(others))
         told += writer.rows([visible(node) for node in others])
     head = list(told)
-    told += _topics(writer, found["topics"])
-    told += _services(writer, found["services"], verbose=verbose)
+    told += _topics(writer, session["topics"])
+    told += _services(writer, session["services"], verbose=verbose)
     if height is None or width is None or verbose or len(told) < height:
         return told
-    return head + _brief(writer, found["topics"], found["services"], ascii_only=ascii_only)
+    return head + _brief(writer, session["topics"], session["services"], ascii_only=ascii_only)
 
 
 def _processes(writer: "_Writer", processes: Sequence[Mapping[str, Any]]) -> list[Text]:
@@ -176,9 +176,9 @@ class _Writer:
     def rows(
         self, names: Sequence[str], columns: Sequence[TableColumn] = (), lists: Sequence[str] = ()
     ) -> list[Text]:
-        """Return a row for each name, with its columns and its list.
+        """Return a row for each name: the name, its cells of `columns`, its text of `lists`.
 
-        With a width, the list is wrapped in lines below the row; else the list ends the row.
+        With a width, the text of `lists` is wrapped in lines below the row.
         """
         if not names:
             return []

@@ -280,13 +280,13 @@ def _edges(parts: Indices, depths: Floats) -> npt.NDArray[np.bool_]:
     return edge
 
 
-def _outline(found: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
-    """Return a mask of the outermost points of solids; `found` is the mask of all points."""
-    around = np.pad(found, 1)
-    inner: npt.NDArray[np.bool_] = found & (
+def _outline(solid: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
+    """Return a mask of the outermost points of solids; `solid` is the mask of all points."""
+    around = np.pad(solid, 1)
+    inner: npt.NDArray[np.bool_] = solid & (
         around[:-2, 1:-1] & around[2:, 1:-1] & around[1:-1, :-2] & around[1:-1, 2:]
     )
-    return found & ~inner
+    return solid & ~inner
 
 
 def _ends(picture: SpacePicture) -> set[str]:

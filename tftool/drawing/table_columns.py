@@ -25,7 +25,7 @@ class TableColumn:
         cells: Text and style of the cell in each row.
         align_right: Whether to align the cells to the right, as for numbers.
         caps: Maximum widths, from wide to narrow, to which the column shrinks before it is dropped.
-        drop_order: Columns of a narrow table are dropped from 1 on; 0 for a column that stays.
+        drop_order: Rank, from 1, in which a narrow table drops the column; 0 for never.
     """
 
     heading: str

@@ -74,7 +74,7 @@ def frame_line(link: FrameTraffic, *, as_tf2: bool = False) -> str:
 
 
 def sender_line(name: str, series: Series, *, as_tf2: bool = False) -> str:
-    """Format the line about a broadcaster like tf2_monitor, without a comma before "Max Delay"."""
+    """Format the line about a broadcaster as tf2_monitor does: no comma before "Max Delay"."""
     average, maximum = _delays(series, as_tf2)
     rate = series.tf2_rate if as_tf2 else series.rate
     return (

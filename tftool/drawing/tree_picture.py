@@ -50,7 +50,7 @@ def draw(snapshot: Snapshot, form: str, marks: Marks = NO_MARKS) -> Drawing:
 def dot(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
     """Return the text of a dot file; without static transforms, view_frames writes the same bytes.
 
-    Edges of static frames are dashed. All frames are in the picture. The legend is attached to
+    Lines to static frames are dashed. All frames are in the picture. The legend is attached to
     every root. view_frames attaches the legend to one root only, and fails if the frames form a
     loop.
     """

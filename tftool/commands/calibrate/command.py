@@ -61,34 +61,34 @@ Curve = tuple[str, Floats, Floats]
 """Name of a curve, its x values, its y values."""
 
 
-def page(found: Calibration, a: TransformArray, b: TransformArray) -> str:
+def page(calibration: Calibration, a: TransformArray, b: TransformArray) -> str:
     """Return the HTML page about the motions `a` and `b`: result, trajectories, residuals, axes."""
-    parts = [f"<pre>{escape(calibration_view.lines(found))}</pre>"]
+    parts = [f"<pre>{escape(calibration_view.lines(calibration))}</pre>"]
     first, second = BodyMotion.of(a), BodyMotion.of(b)
-    if found.inverted[1]:
+    if calibration.inverted[1]:
         second = second.inverted()
-    if found.clock is not None:
-        curve = found.clock.lags, found.clock.curve
+    if calibration.clock is not None:
+        curve = calibration.clock.lags, calibration.clock.curve
         parts.append(_figure("Correlation of the rotations", "offset, s", "", [("", *curve)]))
-    if found.mount is not None and found.fixed_mount is not None:
-        parts += _aligned(found, first, second)
-    title = visible(f"{found.moving[1]} on {found.moving[0]}")
+    if calibration.mount is not None and calibration.fixed_mount is not None:
+        parts += _aligned(calibration, first, second)
+    title = visible(f"{calibration.moving[1]} on {calibration.moving[0]}")
     return (
         f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{escape(title)}</title>'
         f"<style>{_STYLE}</style><h1>Calibration: {escape(title)}</h1>{''.join(parts)}</html>\n"
     )
 
 
-def _aligned(found: Calibration, a: BodyMotion, b: BodyMotion) -> list[str]:
+def _aligned(calibration: Calibration, a: BodyMotion, b: BodyMotion) -> list[str]:
     """Return HTML drawings of two motions, before and after their alignment.
 
     The drawings compare A · X with Y · B, which should be equal. A and B are the motions `a` and
     `b`, X is the mounting pose, and Y is the pose of B's fixed frame in A's fixed frame.
     """
-    assert found.mount is not None
-    assert found.fixed_mount is not None
-    assert found.clock_offset is not None
-    times = b.times + (found.clock_offset - (a.start - b.start) / NANOSECONDS)
+    assert calibration.mount is not None
+    assert calibration.fixed_mount is not None
+    assert calibration.clock_offset is not None
+    times = b.times + (calibration.clock_offset - (a.start - b.start) / NANOSECONDS)
     places, turns, valid = a.at(times)
     places, turns, times = places[valid], turns[valid], times[valid]
     count = len(times)
@@ -96,11 +96,11 @@ def _aligned(found: Calibration, a: BodyMotion, b: BodyMotion) -> list[str]:
     def all_rows(values: tuple[float, ...]) -> Floats:
         return np.broadcast_to(np.array(values), (count, len(values)))
 
-    mounted = places + batch.rotate(turns, all_rows(found.mount.translation))
-    turned = batch.multiply(turns, all_rows(found.mount.rotation))
-    join = all_rows(found.fixed_mount.rotation)
+    mounted = places + batch.rotate(turns, all_rows(calibration.mount.translation))
+    turned = batch.multiply(turns, all_rows(calibration.mount.rotation))
+    join = all_rows(calibration.fixed_mount.rotation)
     seen = b.positions[valid]
-    reached = batch.rotate(join, seen) + np.array(found.fixed_mount.translation)
+    reached = batch.rotate(join, seen) + np.array(calibration.fixed_mount.translation)
     reached_turns = batch.multiply(join, b.rotations[valid])
     distances = np.linalg.norm(mounted - reached, axis=1) * 1e3
     angles = np.degrees(batch.angles_between(turned, reached_turns))
@@ -257,17 +257,17 @@ def _refuse_outputs(
         )
 
 
-def _print(found: Calibration, checked: PublishedMount | None, *, for_programs: bool) -> bool:
+def _print(calibration: Calibration, checked: PublishedMount | None, *, for_programs: bool) -> bool:
     """Print a calibration; return whether the published mount is outside the result's interval."""
-    outside, compared = ((), None) if checked is None else _compared(found, checked)
+    outside, compared = ((), None) if checked is None else _compared(calibration, checked)
     if for_programs:
-        written = json.dumps(view.as_object(found, compared), indent=2, allow_nan=False)
+        written = json.dumps(view.as_object(calibration, compared), indent=2, allow_nan=False)
         sys.stdout.write(written + "\n")
         return bool(outside)
-    sys.stdout.write(view.lines(found, line_width()))
+    sys.stdout.write(view.lines(calibration, line_width()))
     for sentence in outside:
         sys.stdout.write(f"{sentence}\n")
-    if checked is not None and found and not outside:
+    if checked is not None and calibration and not outside:
         sys.stdout.write(
             "The published mount is inside of the interval, or differs from the result by at most "
             "1 mm and 0.1°.\n"
@@ -411,16 +411,16 @@ LEAST_DIFFERENCE: Final = (0.001, 0.1)
 
 
 def _compared(
-    found: Calibration, published: PublishedMount
+    calibration: Calibration, published: PublishedMount
 ) -> tuple[list[str], dict[str, object] | None]:
     """Compare the published mount with the result: return the differences as sentences and data."""
-    if published.mount is None or found.mount is None or found.interval95 is None:
+    if published.mount is None or calibration.mount is None or calibration.interval95 is None:
         return [], None
-    shift, turn = np.split(difference(found.mount, published.mount), 2)
+    shift, turn = np.split(difference(calibration.mount, published.mount), 2)
     outside, told = [], []
     for names, values, widths, unit, factor, least in (
-        (AXES, shift, found.interval95.translation, " mm", 1e3, LEAST_DIFFERENCE[0]),
-        (ANGLES, turn, found.interval95.rotation_deg, "°", 1.0, LEAST_DIFFERENCE[1]),
+        (AXES, shift, calibration.interval95.translation, " mm", 1e3, LEAST_DIFFERENCE[0]),
+        (ANGLES, turn, calibration.interval95.rotation_deg, "°", 1.0, LEAST_DIFFERENCE[1]),
     ):
         for name, value, width in zip(names, values, widths, strict=True):
             if width is not None and abs(value) > max(width, least):
@@ -429,7 +429,9 @@ def _compared(
                     f"{published.name}: {name} differs by {value * factor:.1f}{unit} "
                     f"± {width * factor:.{1 if width * factor >= 0.1 else 2}f}{unit}"
                 )
-    seen = [one for one, width in zip(shift, found.interval95.translation, strict=True) if width]
+    seen = [
+        one for one, width in zip(shift, calibration.interval95.translation, strict=True) if width
+    ]
     return told, {
         "joint": published.name,
         "published": view.pose_object(published.mount),

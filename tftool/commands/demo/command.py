@@ -55,7 +55,7 @@ def _show(
         connection: Connection of the command.
         options: Options of the command.
         chosen: Scenario to show if no session is joined.
-        name: Name of the scenario; None to join the running session if there is one.
+        name: Scenario that the user named; None to join the running session if there is one.
 
     Returns:
         Name of the scenario that the user chose next; None if the user quit.

@@ -32,19 +32,19 @@ class Printer:
     with_distance: bool = False
     for_programs: bool = False
 
-    def found(self, now: Stamp, found: TransformStamped) -> None:
+    def found(self, now: Stamp, transform: TransformStamped) -> None:
         """Print a transform."""
         if self.for_programs:
-            self._line(view.as_object(found, with_distance=self.with_distance))
+            self._line(view.as_object(transform, with_distance=self.with_distance))
         elif sys.stdout.isatty():
             write(
-                view.painted(found, precision=self.precision, with_distance=self.with_distance),
+                view.painted(transform, precision=self.precision, with_distance=self.with_distance),
                 end="",
             )
             sys.stdout.flush()
         else:
             self._write(
-                view.block(found, precision=self.precision, with_distance=self.with_distance)
+                view.block(transform, precision=self.precision, with_distance=self.with_distance)
             )
 
     def failed(self, now: Stamp, refusal: TransformException, buffer: Buffer) -> None:

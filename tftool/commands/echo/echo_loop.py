@@ -65,12 +65,12 @@ class LivePrinter:
         self.with_distance = with_distance
         self._shown: TransformStamped | None = None
 
-    def found(self, now: Stamp, found: TransformStamped) -> None:
+    def found(self, now: Stamp, transform: TransformStamped) -> None:
         """Show a transform and its age."""
-        self._shown = found
-        age = now - found.stamp if found.stamp else None
+        self._shown = transform
+        age = now - transform.stamp if transform.stamp else None
         heading = view.live_heading(self.pair.target, self.pair.source, age)
-        answer = view.painted(found, precision=self.precision, with_distance=self.with_distance)
+        answer = view.painted(transform, precision=self.precision, with_distance=self.with_distance)
         answer.rstrip()
         self.redrawing.show(heading.append_text(answer))
 

@@ -81,7 +81,7 @@ async def _play(
     recording: Recording,
     timeline: Timeline,
     span: tuple[Stamp, Stamp],
-    shown: tuple[Sequence[PlaybackMark], Sequence[PlayedTopic]] | None,
+    marks_and_topics: tuple[Sequence[PlaybackMark], Sequence[PlayedTopic]] | None,
     pace: Clock,
     link: Link | None,
 ) -> None:
@@ -92,7 +92,7 @@ async def _play(
         recording: The recording.
         timeline: Transforms of the recording, with their times.
         span: First and last time to play.
-        shown: Findings and topics to show on a full screen; None for no screen.
+        marks_and_topics: Findings and topics to show on a full screen; None for no screen.
         pace: Clock of real time.
         link: Connection to the session; None to share nothing.
     """
@@ -108,13 +108,13 @@ async def _play(
             rate=options.rate,
             is_paused=options.paused,
             is_looping=options.loop,
-            waits_at_end=shown is not None,
+            waits_at_end=marks_and_topics is not None,
             is_restamped=is_restamped,
             feed=_feed(recording, timeline, link) if options.everything else None,
         )
         life = beside(live(world), _end_after(world, pace, options.run_for))
-        if shown is not None:
-            await _on_screen(options, player, timeline.moments - span[0], shown, life)
+        if marks_and_topics is not None:
+            await _on_screen(options, player, timeline.moments - span[0], marks_and_topics, life)
             return
         stop_telling = world.log.listen(_tell, "console")
         try:
@@ -135,14 +135,14 @@ async def _on_screen(
     options: PlayOptions,
     player: Player,
     moments: Stamps,
-    shown: tuple[Sequence[PlaybackMark], Sequence[PlayedTopic]],
+    marks_and_topics: tuple[Sequence[PlaybackMark], Sequence[PlayedTopic]],
     life: Coroutine[Any, Any, None],
 ) -> None:
     """Play on a full screen until q is pressed or the coroutine `life` ends."""
     from tftool.screens.terminal.player_app import PlayerScreen
 
     setting = screen_setting(options, f"tftool play {visible(Path(options.file).name)}")
-    app = PlayerScreen(player, moments, *shown, setting)
+    app = PlayerScreen(player, moments, *marks_and_topics, setting)
 
     def tell(record: "LogRecord") -> None:
         if is_news(record):

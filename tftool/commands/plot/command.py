@@ -29,7 +29,7 @@ from tftool.recordings.target import refuse_existing, whole_file
 
 def drawn(
     options: PlotOptions,
-    found: list[Trajectory],
+    trajectories: list[Trajectory],
     start: Stamp,
     console: Console,
     *,
@@ -42,7 +42,7 @@ def drawn(
 
     Args:
         options: Options of the command.
-        found: Transforms over time.
+        trajectories: Transforms over time.
         start: Time that is 0 on the axis.
         console: Console to print on; without a terminal, the plot is 80 columns wide.
         margin: Number of columns that the plot leaves free.
@@ -63,8 +63,8 @@ def drawn(
         marked=ascii_only or (console.is_terminal and not has_colors),
     )
     if options.from_above:
-        return view.from_above(found, look)
-    return view.over_time(found, start, _quantities(options), look, span=span)
+        return view.from_above(trajectories, look)
+    return view.over_time(trajectories, start, _quantities(options), look, span=span)
 
 
 def _quantities(options: PlotOptions) -> Sequence[str]:
@@ -144,7 +144,7 @@ def _curve(curve: PlotCurve, pair: Trajectory) -> dict[str, object]:
 
 
 def _as_object(
-    found: list[Trajectory], start: Stamp, quantities: Sequence[str]
+    trajectories: list[Trajectory], start: Stamp, quantities: Sequence[str]
 ) -> dict[str, object]:
     """Return the curves as a mapping, for --json, with null where a curve is interrupted."""
     return {
@@ -154,13 +154,13 @@ def _as_object(
             {
                 "title": panel.title,
                 "unit": panel.unit,
-                "curves": [_curve(one, found[one.place]) for one in panel.curves],
+                "curves": [_curve(one, trajectories[one.place]) for one in panel.curves],
             }
-            for panel in panels(found, start, quantities)
+            for panel in panels(trajectories, start, quantities)
         ],
         "refused": [
             {"first_s": one.first, "last_s": one.last, "reason": one.reason.strip()}
-            for one in shades(found, start)
+            for one in shades(trajectories, start)
         ],
     }
 

@@ -206,13 +206,13 @@ def stopped_for(moment: SceneMoment) -> float:
     return max(ages, default=0.0)
 
 
-def _time_of(moment: SceneMoment, found: TransformStamped, age: float) -> tuple[str, str]:
+def _time_of(moment: SceneMoment, transform: TransformStamped, age: float) -> tuple[str, str]:
     """Return the label and the text of a transform's stamp (seconds since the start) and age."""
-    if not found.stamp:
+    if not transform.stamp:
         return "at", " all times"
-    since = as_seconds(found.stamp - (moment.stamp - moment.elapsed))
+    since = as_seconds(transform.stamp - (moment.stamp - moment.elapsed))
     # A stamp of another clock is shown as it is.
-    stamp = f"{since:.3f} s" if abs(since) < FAR else f"{as_seconds(found.stamp):.3f}"
+    stamp = f"{since:.3f} s" if abs(since) < FAR else f"{as_seconds(transform.stamp):.3f}"
     return "at", f" {stamp}" + (f", {theme.age_words(age)} old" if age else "")
 
 
@@ -235,10 +235,10 @@ def _facts_of(found: TransformStamped, *, narrow: bool, look: Look) -> list[tupl
     ]
 
 
-def _more_facts(found: TransformStamped) -> list[tuple[str, str]]:
+def _more_facts(transform: TransformStamped) -> list[tuple[str, str]]:
     """Return labels and texts of a transform's other notations: radians and the matrix."""
-    radians = rpy_from_quaternion(found.transform.rotation)
-    matrix = found.transform.matrix()
+    radians = rpy_from_quaternion(transform.transform.rotation)
+    matrix = transform.transform.matrix()
     rows = [("mat" if not place else "", _numbers(row, 3, 8)) for place, row in enumerate(matrix)]
     return [("rad", _numbers(radians, 3, 8)), *rows]
 
