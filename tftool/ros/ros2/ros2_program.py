@@ -33,19 +33,19 @@ def body(words: Sequence[str], workspace: Workspace, show: Print) -> Callable[[]
     Raises:
         UsageError: If there is no such command, or the command line names an unknown type.
     """
-    asked = ros2_words.parse(words)
-    if asked.noun in ros2_words.SESSIONLESS:
+    args = ros2_words.parse(words)
+    if args.noun in ros2_words.SESSIONLESS:
         # The function of `ros2 pkg list` is `_pkg_list`.
-        text = globals()[f"_{asked.noun}_{asked.verb}"](asked, workspace)
+        text = globals()[f"_{args.noun}_{args.verb}"](args, workspace)
         return lambda: show_lines(text, show)
-    if "values" in asked:
-        asked.message = _message(asked)
+    if "values" in args:
+        args.message = _message(args)
 
     def work() -> None:
         core.init()
         node = core.create_node(NAME, start_parameter_services=False, use_global_arguments=False)
         try:
-            status = verb_of(asked)(node, asked, show)
+            status = verb_of(args)(node, args, show)
         finally:
             node.destroy_node()
         if status:
@@ -54,59 +54,59 @@ def body(words: Sequence[str], workspace: Workspace, show: Print) -> Callable[[]
     return work
 
 
-def _message(asked: argparse.Namespace) -> Any:
+def _message(args: argparse.Namespace) -> Any:
     """Create the message that a command line describes by a type and a YAML text.
 
     Raises:
         UsageError: If the type is unknown, or the YAML text does not fit the type.
     """
-    kind = {"topic": "msg", "service": "srv", "action": "action"}[asked.noun]
-    asked.kind = rosidl_runtime.interface(asked.type, kind)
-    part = {"msg": asked.kind}.get(kind) or getattr(
-        asked.kind, "Request" if kind == "srv" else "Goal"
+    kind = {"topic": "msg", "service": "srv", "action": "action"}[args.noun]
+    args.kind = rosidl_runtime.interface(args.type, kind)
+    part = {"msg": args.kind}.get(kind) or getattr(
+        args.kind, "Request" if kind == "srv" else "Goal"
     )
     made = part()
-    rosidl_runtime.fill(made, parameter_files.yaml_value(asked.values))
+    rosidl_runtime.fill(made, parameter_files.yaml_value(args.values))
     return made
 
 
-def _pkg_executables(asked: argparse.Namespace, workspace: Workspace) -> str:
+def _pkg_executables(args: argparse.Namespace, workspace: Workspace) -> str:
     found = executables.names(workspace)
-    if asked.package is not None and asked.package not in {package for package, _ in found}:
-        workspace.package(asked.package)
+    if args.package is not None and args.package not in {package for package, _ in found}:
+        workspace.package(args.package)
     return "\n".join(
-        str(path) if asked.full_path and path else f"{package} {name}"
+        str(path) if args.full_path and path else f"{package} {name}"
         for (package, name), path in sorted(found.items())
-        if asked.package in (None, package)
+        if args.package in (None, package)
     )
 
 
-def _pkg_prefix(asked: argparse.Namespace, workspace: Workspace) -> str:
-    known = workspace.packages.get(asked.package)
-    return str(workspace.share(asked.package) if known is None or asked.share else known.path)
+def _pkg_prefix(args: argparse.Namespace, workspace: Workspace) -> str:
+    known = workspace.packages.get(args.package)
+    return str(workspace.share(args.package) if known is None or args.share else known.path)
 
 
-def _pkg_xml(asked: argparse.Namespace, workspace: Workspace) -> str:
+def _pkg_xml(args: argparse.Namespace, workspace: Workspace) -> str:
     """Return the text of a package's package.xml, or the content of one XML tag in the file.
 
     Raises:
         UsageError: If the package has no package.xml, or the file has no such tag.
     """
-    file = workspace.package(asked.package).path / "package.xml"
+    file = workspace.package(args.package).path / "package.xml"
     if not file.is_file():
-        raise UsageError(f"package '{asked.package}' has no package.xml")
+        raise UsageError(f"package '{args.package}' has no package.xml")
     text = read_text(file)
-    if asked.tag is None:
+    if args.tag is None:
         return text
-    tag = re.escape(asked.tag)
+    tag = re.escape(args.tag)
     found = re.findall(rf"<{tag}(?:\s[^>]*)?>\s*(.*?)\s*</{tag}>", text, re.DOTALL)
     if not found:
-        raise UsageError(f"package.xml of '{asked.package}' has no tag '{asked.tag}'")
+        raise UsageError(f"package.xml of '{args.package}' has no tag '{args.tag}'")
     return "\n".join(found)
 
 
-def _interface_list(asked: argparse.Namespace, workspace: Workspace) -> str:
-    wanted = [kind for kind in rosidl_runtime.KINDS if getattr(asked, f"only_{kind}s")]
+def _interface_list(args: argparse.Namespace, workspace: Workspace) -> str:
+    wanted = [kind for kind in rosidl_runtime.KINDS if getattr(args, f"only_{kind}s")]
     lines = []
     for kind in wanted or rosidl_runtime.KINDS:
         found = rosidl_runtime.interfaces(kinds=[kind])
@@ -114,23 +114,23 @@ def _interface_list(asked: argparse.Namespace, workspace: Workspace) -> str:
     return "\n".join(lines)
 
 
-def _interface_proto(asked: argparse.Namespace, workspace: Workspace) -> str:
-    shown = rosidl_runtime.plain(rosidl_runtime.prototype(asked.type))
+def _interface_proto(args: argparse.Namespace, workspace: Workspace) -> str:
+    shown = rosidl_runtime.plain(rosidl_runtime.prototype(args.type))
     text = rosidl_runtime.as_yaml(shown) if shown else ""
-    return text if asked.no_quotes else f'"{text}"'
+    return text if args.no_quotes else f'"{text}"'
 
 
-def _interface_show(asked: argparse.Namespace, workspace: Workspace) -> str:
-    return rosidl_runtime.definition(asked.type)
+def _interface_show(args: argparse.Namespace, workspace: Workspace) -> str:
+    return rosidl_runtime.definition(args.type)
 
 
-def _interface_package(asked: argparse.Namespace, workspace: Workspace) -> str:
-    return "\n".join(rosidl_runtime.interfaces(asked.package))
+def _interface_package(args: argparse.Namespace, workspace: Workspace) -> str:
+    return "\n".join(rosidl_runtime.interfaces(args.package))
 
 
-def _interface_packages(asked: argparse.Namespace, workspace: Workspace) -> str:
+def _interface_packages(args: argparse.Namespace, workspace: Workspace) -> str:
     return "\n".join(sorted(INTERFACES.packages()))
 
 
-def _pkg_list(asked: argparse.Namespace, workspace: Workspace) -> str:
+def _pkg_list(args: argparse.Namespace, workspace: Workspace) -> str:
     return "\n".join(sorted({*workspace.packages, *INTERFACES.packages()}))

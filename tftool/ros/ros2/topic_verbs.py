@@ -42,7 +42,7 @@ def show_lines(text: str, show: Print) -> None:
         show(line)
 
 
-def listen() -> None:
+def discover() -> None:
     """Wait long enough to discover the nodes and topics of other processes."""
     program.current().sleep(SETTLE)
 
@@ -59,36 +59,36 @@ _NAMES_AND_TYPES: dict[str, Callable[[Node], Any]] = {
 }
 
 
-def names_and_types(node: Node, asked: argparse.Namespace) -> Any:
+def names_and_types(node: Node, args: argparse.Namespace) -> Any:
     """Wait for discovery; return (name, types) of all topics, or of all services or actions."""
-    listen()
-    return _NAMES_AND_TYPES[asked.noun](node)
+    discover()
+    return _NAMES_AND_TYPES[args.noun](node)
 
 
-def list_names(node: Node, asked: argparse.Namespace, show: Print) -> None:
-    """Print the names of all topics, services or actions; with a count option, only the number."""
-    hidden = getattr(asked, f"include_hidden_{asked.noun}s", False)
-    pairs = names_and_types(node, asked)
+def list_names(node: Node, args: argparse.Namespace, show: Print) -> None:
+    """Print the names of all topics, services or actions; with `--count-…`, only their number."""
+    hidden = getattr(args, f"include_hidden_{args.noun}s", False)
+    pairs = names_and_types(node, args)
     seen = [one for one in pairs if hidden or not topic_or_service_is_hidden(one[0])]
-    if getattr(asked, f"count_{asked.noun}s"):
+    if getattr(args, f"count_{args.noun}s"):
         show(str(len(seen)))
         return
     for name, kinds in seen:
-        show(f"{name} [{', '.join(kinds)}]" if asked.show_types else name)
+        show(f"{name} [{', '.join(kinds)}]" if args.show_types else name)
 
 
-def _topic_list(node: Node, asked: argparse.Namespace, show: Print) -> None:
-    if not asked.verbose:
-        list_names(node, asked, show)
+def _topic_list(node: Node, args: argparse.Namespace, show: Print) -> None:
+    if not args.verbose:
+        list_names(node, args, show)
         return
-    pairs = names_and_types(node, asked)
+    pairs = names_and_types(node, args)
     for title, role, count in (
         ("Published", "publisher", node.count_publishers),
         ("\nSubscribed", "subscriber", node.count_subscribers),
     ):
         show_lines(f"{title} topics:", show)
         for name, kinds in pairs:
-            hidden = topic_or_service_is_hidden(name) and not asked.include_hidden_topics
+            hidden = topic_or_service_is_hidden(name) and not args.include_hidden_topics
             if not hidden and (number := count(name)):
                 ends = f"{number} {role}{'s' if number > 1 else ''}"
                 show(f" * {name} [{', '.join(kinds)}] {ends}")
@@ -121,18 +121,18 @@ def _wait_until(found: Callable[[], object]) -> None:
         owner.sleep(SETTLE // 5)
 
 
-def _wanted_quality(asked: argparse.Namespace, otherwise: QoSProfile) -> QoSProfile:
+def _chosen_quality(args: argparse.Namespace, default: QoSProfile) -> QoSProfile:
     """Return the QoS profile that the options `--qos-…` describe.
 
-    Settings without an option come from the profile `otherwise`.
+    Settings without an option come from the profile `default`.
     """
-    profile = otherwise
-    if asked.qos_profile:
-        profile = copy(QoSPresetProfiles[asked.qos_profile.upper()].value)
-    if asked.qos_depth:
-        profile.depth = asked.qos_depth
+    profile = default
+    if args.qos_profile:
+        profile = copy(QoSPresetProfiles[args.qos_profile.upper()].value)
+    if args.qos_depth:
+        profile.depth = args.qos_depth
     for name, policy in _POLICIES.items():
-        wanted = getattr(asked, f"qos_{name}")
+        wanted = getattr(args, f"qos_{name}")
         if wanted:
             setattr(profile, name, policy[wanted.upper()])
     return profile
@@ -145,58 +145,58 @@ _POLICIES: dict[str, Any] = {
 }
 
 
-def _heard(node: Node, asked: argparse.Namespace, callback: Callable[[Any], None]) -> None:
+def _subscribe(node: Node, args: argparse.Namespace, callback: Callable[[Any], None]) -> None:
     """Subscribe to a topic; call `callback` with each message that passes the option --filter.
 
     The options `--qos-…` set the QoS profile; the default is compatible with all publishers.
     """
-    name = getattr(asked, "type", None) or _type_of_topic(node, asked.topic)
-    ends = [one.qos_profile for one in node.get_publishers_info_by_topic(full_name(asked.topic))]
+    name = getattr(args, "type", None) or _type_of_topic(node, args.topic)
+    ends = [one.qos_profile for one in node.get_publishers_info_by_topic(full_name(args.topic))]
     latched = bool(ends) and all(one.durability is DurabilityPolicy.TRANSIENT_LOCAL for one in ends)
     reliable = all(one.reliability is ReliabilityPolicy.RELIABLE for one in ends)
     profile = QoSProfile(
         depth=100 if latched else 10,
         durability=DurabilityPolicy.TRANSIENT_LOCAL
-        if latched or full_name(asked.topic) == "/tf_static"
+        if latched or full_name(args.topic) == "/tf_static"
         else DurabilityPolicy.VOLATILE,
         reliability=ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT,
     )
-    if "qos_profile" in asked:
-        profile = _wanted_quality(asked, profile)
+    if "qos_profile" in args:
+        profile = _chosen_quality(args, profile)
     # The types of topics that belong to an action or a service have no message file of their own.
     is_derived = "/action/" in name or "/srv/" in name
     kind = INTERFACES.part(name) if is_derived else rosidl_runtime.interface(name, "msg")
 
     def take(message: Any) -> None:
         try:
-            if asked.wanted is not None and not asked.wanted(message):
+            if args.wanted is not None and not args.wanted(message):
                 return
         except Exception as error:
             raise UsageError(f"the expression of --filter fails for a message: {error}") from error
         callback(message)
 
-    node.create_subscription(kind, full_name(asked.topic), take, profile)
+    node.create_subscription(kind, full_name(args.topic), take, profile)
 
 
-def _topic_echo(node: Node, asked: argparse.Namespace, show: Print) -> None:
+def _topic_echo(node: Node, args: argparse.Namespace, show: Print) -> None:
     heard: list[Any] = []
-    length = None if asked.full_length else asked.truncate_length
-    short = {"truncate_length": length, "no_arr": asked.no_arr, "no_str": asked.no_str}
+    length = None if args.full_length else args.truncate_length
+    short = {"truncate_length": length, "no_arr": args.no_arr, "no_str": args.no_str}
 
     def echo(message: Any) -> None:
         heard.append(None)
-        if asked.once and len(heard) > 1:
+        if args.once and len(heard) > 1:
             return
-        value = message if asked.field is None else _field(message, asked.field)
+        value = message if args.field is None else _field(message, args.field)
         shown = rosidl_runtime.plain(value, **short)
-        if asked.csv:
+        if args.csv:
             show(rosidl_runtime.as_csv(shown))
             return
-        show_lines(rosidl_runtime.as_yaml(shown, flow_style=asked.flow_style), show)
+        show_lines(rosidl_runtime.as_yaml(shown, flow_style=args.flow_style), show)
         show("---")
 
-    _heard(node, asked, echo)
-    while core.ok() and not (asked.once and heard):
+    _subscribe(node, args, echo)
+    while core.ok() and not (args.once and heard):
         core.spin_once(node)
 
 
@@ -217,23 +217,23 @@ def _field(message: Any, path: str) -> Any:
     return found
 
 
-def _measured(
+def _measure(
     node: Node,
-    asked: argparse.Namespace,
-    value: Callable[[Any], Any],
-    tell: Callable[[list[Any]], None],
+    args: argparse.Namespace,
+    measure: Callable[[Any], Any],
+    report: Callable[[list[Any]], None],
 ) -> None:
-    """Call `value` for each message on a topic; once a second, call `tell` with the results.
+    """Call `measure` with each message on a topic, and `report` with the results each second.
 
-    Only the results of the last `--window` messages are passed.
+    `report` gets only the results for the last `--window` messages.
     """
     values: list[Any] = []
-    _heard(node, asked, lambda message: values.append(value(message)))
+    _subscribe(node, args, lambda message: values.append(measure(message)))
 
     def each_second() -> None:
-        del values[: -asked.window]
+        del values[: -args.window]
         if values:
-            tell(values)
+            report(values)
 
     node.create_timer(1.0, each_second)
     core.spin(node)
@@ -246,7 +246,7 @@ def _spread(seconds_of_each: Sequence[float], window: int) -> str:
     )
 
 
-def _topic_hz(node: Node, asked: argparse.Namespace, show: Print) -> None:
+def _topic_hz(node: Node, args: argparse.Namespace, show: Print) -> None:
     owner = program.current()
 
     def tell(moments: list[int]) -> None:
@@ -255,10 +255,10 @@ def _topic_hz(node: Node, asked: argparse.Namespace, show: Print) -> None:
             show(f"average rate: {1.0 / max(statistics.fmean(gaps), 1e-9):.3f}")
             show(_spread(gaps, len(moments)))
 
-    _measured(node, asked, lambda _: owner.now(), tell)
+    _measure(node, args, lambda _: owner.now(), tell)
 
 
-def _topic_bw(node: Node, asked: argparse.Namespace, show: Print) -> None:
+def _topic_bw(node: Node, args: argparse.Namespace, show: Print) -> None:
     owner = program.current()
 
     def tell(heard: list[tuple[int, int]]) -> None:
@@ -271,7 +271,7 @@ def _topic_bw(node: Node, asked: argparse.Namespace, show: Print) -> None:
             f"min: {_bytes(min(sizes))} max: {_bytes(max(sizes))}"
         )
 
-    _measured(node, asked, lambda message: (owner.now(), len(serialize_message(message))), tell)
+    _measure(node, args, lambda message: (owner.now(), len(serialize_message(message))), tell)
 
 
 def _bytes(number: float) -> str:
@@ -281,7 +281,7 @@ def _bytes(number: float) -> str:
     return f"{number:.0f} B"
 
 
-def _topic_delay(node: Node, asked: argparse.Namespace, show: Print) -> None:
+def _topic_delay(node: Node, args: argparse.Namespace, show: Print) -> None:
     owner = program.current()
 
     def delay(message: Any) -> float:
@@ -295,36 +295,36 @@ def _topic_delay(node: Node, asked: argparse.Namespace, show: Print) -> None:
         show(f"average delay: {statistics.fmean(delays):.3f}")
         show(_spread(delays, len(delays)))
 
-    _measured(node, asked, delay, tell)
+    _measure(node, args, delay, tell)
 
 
-def _topic_info(node: Node, asked: argparse.Namespace, show: Print) -> None:
-    kind = _type_of_topic(node, asked.topic)
-    full = full_name(asked.topic)
-    after = [""] if asked.verbose else []
+def _topic_info(node: Node, args: argparse.Namespace, show: Print) -> None:
+    kind = _type_of_topic(node, args.topic)
+    full = full_name(args.topic)
+    after = [""] if args.verbose else []
     lines = [f"Type: {kind}", *after]
     for role, count, infos in (
         ("Publisher", node.count_publishers(full), node.get_publishers_info_by_topic(full)),
         ("Subscription", node.count_subscribers(full), node.get_subscriptions_info_by_topic(full)),
     ):
         lines += [f"{role} count: {count}", *after]
-        for one in infos if asked.verbose else ():
+        for one in infos if args.verbose else ():
             lines += [*str(one).splitlines(), ""]
     for line in lines:
         show(line)
 
 
-def _topic_type(node: Node, asked: argparse.Namespace, show: Print) -> None:
-    show(_type_of_topic(node, asked.topic))
+def _topic_type(node: Node, args: argparse.Namespace, show: Print) -> None:
+    show(_type_of_topic(node, args.topic))
 
 
-def _topic_pub(node: Node, asked: argparse.Namespace, show: Print) -> None:
-    times = 1 if asked.once else asked.times
-    wanted = asked.wait_matching_subscriptions
+def _topic_pub(node: Node, args: argparse.Namespace, show: Print) -> None:
+    times = 1 if args.once else args.times
+    wanted = args.wait_matching_subscriptions
     if wanted is None:
         wanted = 1 if times else 0
     publisher = node.create_publisher(
-        asked.kind, asked.topic, _wanted_quality(asked, QoSProfile(depth=10))
+        args.kind, args.topic, _chosen_quality(args, QoSProfile(depth=10))
     )
     if publisher.get_subscription_count() < wanted:
         show(f"Waiting for at least {wanted} matching subscription(s)...")
@@ -336,14 +336,14 @@ def _topic_pub(node: Node, asked: argparse.Namespace, show: Print) -> None:
     def publish() -> None:
         nonlocal sent
         sent += 1
-        if sent % asked.each == 0:
-            show(f"publishing #{sent}: {asked.message!r}")
-        publisher.publish(asked.message)
+        if sent % args.each == 0:
+            show(f"publishing #{sent}: {args.message!r}")
+        publisher.publish(args.message)
 
     publish()
-    rate = node.create_rate(asked.rate or 1.0)
+    rate = node.create_rate(args.rate or 1.0)
     while core.ok() and not (times and sent >= times):
         rate.sleep()
         publish()
     # Give messages to other processes time to arrive.
-    listen()
+    discover()

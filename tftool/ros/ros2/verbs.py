@@ -21,9 +21,9 @@ from tftool.ros.ros2 import topic_verbs
 from tftool.ros.ros2.topic_verbs import (
     PATIENCE,
     Print,
+    discover,
     full_name,
     list_names,
-    listen,
     names_and_types,
     show_lines,
 )
@@ -35,31 +35,31 @@ UNKNOWN = 1
 Verb = Callable[[Node, argparse.Namespace, Print], int | None]
 
 
-def verb_of(asked: argparse.Namespace) -> Verb:
-    """Return the function of a command, such as `_topic_echo` for `ros2 topic echo`.
+def verb_of(args: argparse.Namespace) -> Verb:
+    """Return the function of a command: `_topic_echo` for `ros2 topic echo`.
 
-    A verb that exists for several nouns may have one function for all of them: `_type` is the
-    function of `ros2 topic type` and `ros2 service type`.
+    Commands of different nouns may share a function: `_type` is the function of both
+    `ros2 topic type` and `ros2 service type`.
     """
     known = {"_list": list_names, **vars(topic_verbs), **globals()}
-    found: Verb = known.get(f"_{asked.noun}_{asked.verb}") or known[f"_{asked.verb}"]
+    found: Verb = known.get(f"_{args.noun}_{args.verb}") or known[f"_{args.verb}"]
     return found
 
 
-def _type(node: Node, asked: argparse.Namespace, show: Print) -> int:
-    kinds = dict(names_and_types(node, asked)).get(full_name(getattr(asked, asked.noun)), [])
+def _type(node: Node, args: argparse.Namespace, show: Print) -> int:
+    kinds = dict(names_and_types(node, args)).get(full_name(getattr(args, args.noun)), [])
     for kind in kinds:
         show(kind)
     return 0 if kinds else UNKNOWN
 
 
-def _find(node: Node, asked: argparse.Namespace, show: Print) -> None:
-    """Print the names of all topics or services that have the type given in `asked`.
+def _find(node: Node, args: argparse.Namespace, show: Print) -> None:
+    """Print the names of all topics or services that have the type given in `args`.
 
     The type is "package/msg/Name" or "package/Name".
     """
-    kind = asked.type
-    for name, kinds in names_and_types(node, asked):
+    kind = args.type
+    for name, kinds in names_and_types(node, args):
         if any(kind in (one, "/".join(one.split("/")[::2])) for one in kinds):
             show(name)
 
@@ -67,25 +67,25 @@ def _find(node: Node, asked: argparse.Namespace, show: Print) -> None:
 # Services, parameters, nodes, actions
 
 
-def _service_info(node: Node, asked: argparse.Namespace, show: Print) -> int:
-    full = full_name(asked.service)
-    kinds = dict(names_and_types(node, asked)).get(full, [])
+def _service_info(node: Node, args: argparse.Namespace, show: Print) -> int:
+    full = full_name(args.service)
+    kinds = dict(names_and_types(node, args)).get(full, [])
     show(f"Type: {', '.join(kinds) or 'unknown'}")
     show(f"Clients count: {node.count_clients(full)}")
     show(f"Services count: {node.count_services(full)}")
     return 0 if kinds else UNKNOWN
 
 
-def _service_call(node: Node, asked: argparse.Namespace, show: Print) -> None:
-    client = node.create_client(asked.kind, asked.service)
+def _service_call(node: Node, args: argparse.Namespace, show: Print) -> None:
+    client = node.create_client(args.kind, args.service)
     if not client.service_is_ready():
         show("waiting for service to become available...")
         client.wait_for_service()
-    rate = None if asked.rate is None else node.create_rate(asked.rate)
+    rate = None if args.rate is None else node.create_rate(args.rate)
     while True:
-        show(f"requester: making request: {asked.message!r}")
+        show(f"requester: making request: {args.message!r}")
         show("")
-        response = client.call(asked.message)
+        response = client.call(args.message)
         show("response:")
         show(repr(response))
         if rate is None or not core.ok():
@@ -117,20 +117,20 @@ def _names_of_parameters(node: Node, client: AsyncParameterClient) -> list[str]:
     return sorted(_answer(node, client.list_parameters()).result.names)
 
 
-def _param_list(node: Node, asked: argparse.Namespace, show: Print) -> None:
+def _param_list(node: Node, args: argparse.Namespace, show: Print) -> None:
     def each(owner: str) -> None:
         client = _parameters(node, owner)
         known = _names_of_parameters(node, client)
-        if not asked.param_type:
+        if not args.param_type:
             show_lines("\n".join(f"  {name}" for name in known), show)
             return
         for one in _answer(node, client.describe_parameters(known)).descriptors:
             show(f"  {one.name} (type: {_TYPES.get(one.type, 'not set')})")
 
-    if asked.node is not None:
-        each(asked.node)
+    if args.node is not None:
+        each(args.node)
         return
-    listen()
+    discover()
     for name, kinds in node.get_service_names_and_types():
         owner, _, service = name.rpartition("/")
         if service == "list_parameters" and kinds == ["rcl_interfaces/srv/ListParameters"]:
@@ -145,25 +145,25 @@ def _values_of(node: Node, client: AsyncParameterClient, wanted: list[str]) -> l
     return [value_of(one) for one in _answer(node, client.get_parameters(wanted)).values]
 
 
-def _param_get(node: Node, asked: argparse.Namespace, show: Print) -> int:
-    client = _parameters(node, asked.node)
-    (value,) = _values_of(node, client, [asked.name]) or [None]
+def _param_get(node: Node, args: argparse.Namespace, show: Print) -> int:
+    client = _parameters(node, args.node)
+    (value,) = _values_of(node, client, [args.name]) or [None]
     if value is None:
         show("Parameter not set")
         return UNKNOWN
-    shown = "" if asked.hide_type else f"{_WORDS.get(type(value), 'Array')} value is: "
+    shown = "" if args.hide_type else f"{_WORDS.get(type(value), 'Array')} value is: "
     show(f"{shown}{value}")
     return 0
 
 
-def _param_set(node: Node, asked: argparse.Namespace, show: Print) -> int:
-    client, value = _parameters(node, asked.node), parameter_files.yaml_value(asked.value)
-    future = client.set_parameters([Parameter(asked.name, value=value)])
+def _param_set(node: Node, args: argparse.Namespace, show: Print) -> int:
+    client, value = _parameters(node, args.node), parameter_files.yaml_value(args.value)
+    future = client.set_parameters([Parameter(args.name, value=value)])
     return _changed(node, future, show, "Set parameter successful", "Setting")
 
 
-def _param_delete(node: Node, asked: argparse.Namespace, show: Print) -> int:
-    future = _parameters(node, asked.node).delete_parameters([asked.name])
+def _param_delete(node: Node, args: argparse.Namespace, show: Print) -> int:
+    future = _parameters(node, args.node).delete_parameters([args.name])
     return _changed(node, future, show, "Deleted parameter successfully", "Deleting")
 
 
@@ -173,8 +173,8 @@ def _changed(node: Node, future: Any, show: Print, done: str, verb: str) -> int:
     return 0 if result.successful else UNKNOWN
 
 
-def _param_dump(node: Node, asked: argparse.Namespace, show: Print) -> None:
-    client = _parameters(node, asked.node)
+def _param_dump(node: Node, args: argparse.Namespace, show: Print) -> None:
+    client = _parameters(node, args.node)
     known = _names_of_parameters(node, client)
     whole: dict[str, Any] = {}
     for name, value in zip(known, _values_of(node, client, known), strict=True):
@@ -183,13 +183,13 @@ def _param_dump(node: Node, asked: argparse.Namespace, show: Print) -> None:
         for folder in folders:
             below = below.setdefault(folder, {})
         below[last] = value
-    dumped = {full_name(asked.node): {"ros__parameters": whole}}
+    dumped = {full_name(args.node): {"ros__parameters": whole}}
     show_lines(rosidl_runtime.as_yaml(dumped), show)
 
 
-def _param_describe(node: Node, asked: argparse.Namespace, show: Print) -> None:
-    client = _parameters(node, asked.node)
-    for one in _answer(node, client.describe_parameters(asked.names)).descriptors:
+def _param_describe(node: Node, args: argparse.Namespace, show: Print) -> None:
+    client = _parameters(node, args.node)
+    for one in _answer(node, client.describe_parameters(args.names)).descriptors:
         show(f"Parameter name: {one.name}")
         show(f"  Type: {_TYPES.get(one.type, 'not set')}")
         if one.description:
@@ -211,22 +211,22 @@ _TYPES = {
 }  # fmt: skip
 
 
-def _param_load(node: Node, asked: argparse.Namespace, show: Print) -> int:
+def _param_load(node: Node, args: argparse.Namespace, show: Print) -> int:
     """Set a node's parameters from a file; print whether the node accepts each parameter.
 
     Raises:
         UsageError: If the file cannot be read, or has no parameters for the node.
     """
-    client = _parameters(node, asked.node)
+    client = _parameters(node, args.node)
     try:
         given = parameter_dict_from_yaml_file(
-            asked.file, not asked.no_use_wildcard, target_nodes=[full_name(asked.node)]
+            args.file, not args.no_use_wildcard, target_nodes=[full_name(args.node)]
         )
     except OSError as error:
         raise UsageError(str(error)) from None
     if not given:
         raise UsageError(
-            f"'{asked.file}' contains no parameters of {full_name(asked.node)}: write them below "
+            f"'{args.file}' contains no parameters of {full_name(args.node)}: write them below "
             "the name of the node"
         )
     results = _answer(node, client.set_parameters(list(given.values()))).results
@@ -236,19 +236,19 @@ def _param_load(node: Node, asked: argparse.Namespace, show: Print) -> int:
     return 0 if all(result.successful for result in results) else UNKNOWN
 
 
-def _node_list(node: Node, asked: argparse.Namespace, show: Print) -> None:
-    listen()
+def _node_list(node: Node, args: argparse.Namespace, show: Print) -> None:
+    discover()
     known = sorted(node.get_node_names_and_namespaces(), key=lambda one: one[::-1])
-    seen = [one for one in known if asked.all or not topic_or_service_is_hidden(one[0])]
-    if asked.count_nodes:
+    seen = [one for one in known if args.all or not topic_or_service_is_hidden(one[0])]
+    if args.count_nodes:
         show(str(len(seen)))
         return
     for name, namespace in seen:
         show(f"{namespace.rstrip('/')}/{name}")
 
 
-def _node_info(node: Node, asked: argparse.Namespace, show: Print) -> int:
-    full = full_name(asked.node)
+def _node_info(node: Node, args: argparse.Namespace, show: Print) -> int:
+    full = full_name(args.node)
     if not node.wait_for_node(full, PATIENCE):
         raise UsageError(f"There is no node '{full}': 'tftool ros2 node list' lists the nodes.")
     namespace, _, name = full.rpartition("/")
@@ -264,14 +264,14 @@ def _node_info(node: Node, asked: argparse.Namespace, show: Print) -> int:
     ):
         show(f"  {title}:")
         for one, kinds in pairs:
-            if asked.include_hidden or not topic_or_service_is_hidden(one):
+            if args.include_hidden or not topic_or_service_is_hidden(one):
                 show(f"    {one}: {', '.join(kinds)}")
     return 0
 
 
-def _action_info(node: Node, asked: argparse.Namespace, show: Print) -> None:
-    listen()
-    full = full_name(asked.action)
+def _action_info(node: Node, args: argparse.Namespace, show: Print) -> None:
+    discover()
+    full = full_name(args.action)
     show(f"Action: {full}")
     for title, find in (
         ("clients", get_action_client_names_and_types_by_node),
@@ -284,10 +284,10 @@ def _action_info(node: Node, asked: argparse.Namespace, show: Print) -> None:
         ]
         show(f"Action {title}: {len(ends)}")
         for name, kinds in sorted(ends):
-            show(f"    {name} [{', '.join(kinds)}]" if asked.show_types else f"    {name}")
+            show(f"    {name} [{', '.join(kinds)}]" if args.show_types else f"    {name}")
 
 
-def _action_send_goal(node: Node, asked: argparse.Namespace, show: Print) -> int:
+def _action_send_goal(node: Node, args: argparse.Namespace, show: Print) -> int:
     def dump(message: Any) -> None:
         text = rosidl_runtime.as_yaml(rosidl_runtime.plain(message))
         show_lines(textwrap.indent(text, "    "), show)
@@ -303,14 +303,14 @@ def _action_send_goal(node: Node, asked: argparse.Namespace, show: Print) -> int
         show("Feedback:")
         dump(message.feedback)
 
-    client = ActionClient(node, asked.kind, asked.action)
+    client = ActionClient(node, args.kind, args.action)
     if not client.server_is_ready():
         show("Waiting for an action server to become available...")
         client.wait_for_server()
     show("Sending goal:")
-    dump(asked.message)
-    feedback = on_feedback if asked.feedback else None
-    handle = _answer(node, client.send_goal_async(asked.message, feedback_callback=feedback))
+    dump(args.message)
+    feedback = on_feedback if args.feedback else None
+    handle = _answer(node, client.send_goal_async(args.message, feedback_callback=feedback))
     if not handle.accepted:
         show("Goal was rejected.")
         return UNKNOWN

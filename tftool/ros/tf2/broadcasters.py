@@ -159,9 +159,9 @@ class TransformBroadcaster:
     def _watch_silence(self) -> None:
         clock = self._member.world.clock
         timer = clock.timer(clock.now() + SILENT, Phase.WATCH)
-        timer.add_done_callback(lambda _: self._note_silence())
+        timer.add_done_callback(lambda _: self._warn_of_silence())
 
-    def _note_silence(self) -> None:
+    def _warn_of_silence(self) -> None:
         """Log a warning if the broadcaster has sent nothing although its node was spun."""
         lives = self._member in self._member.program.nodes
         if not self._has_sent and self._member.was_served and lives:
@@ -182,7 +182,7 @@ class TransformBroadcaster:
             if not isinstance(one, kind):
                 raise TypeError(f"expected a TransformStamped, got {type(one).__name__}")
             sample = values.pack_transform(one)
-            self._judge(sample)
+            self._check_sample(sample)
             sent.append(sample)
         self._has_sent = True
         self._member.program.ask(partial(self._broadcast, sent))
@@ -190,11 +190,14 @@ class TransformBroadcaster:
     def _broadcast(self, sent: list[TransformStamped]) -> None:
         seat = self._member
         for sample in sent:
-            self._note_parent(sample.frame_id, sample.child_frame_id)
+            self._check_parent(sample.frame_id, sample.child_frame_id)
         seat.world.broadcast(sent, seat.authority, static=self._static)
 
-    def _note_parent(self, parent: str, child: str) -> None:
-        """Log one warning per child frame with swapped parent and child, or with two parents."""
+    def _check_parent(self, parent: str, child: str) -> None:
+        """Log a warning if a parent and child are swapped, or a child frame has two parents.
+
+        Each child frame causes at most one warning.
+        """
         above = self._member.world.buffer.parent
         before = above(child)
         if above(parent) == child != parent:
@@ -217,8 +220,8 @@ class TransformBroadcaster:
             self._told.add(("parent", child))
             self._member.program.say("WARN", self._member.authority, fault)
 
-    def _judge(self, sample: TransformStamped) -> None:
-        """Log one warning per child frame if a stamp is 0 or a rotation is probably wrong."""
+    def _check_sample(self, sample: TransformStamped) -> None:
+        """Log a warning, once per child frame, if the stamp is 0 or the rotation looks wrong."""
         now = self._member.world.clock.now()
         if not (self._static or sample.stamp) and now > seconds(1.0):
             self._report_once(

@@ -123,7 +123,7 @@ class BufferInterface:
     def __init__(self) -> None:
         self.registration = TransformRegistration()
 
-    def _look_up(self, asked: "LookupRequest", timeout: Any) -> Any:
+    def _look_up(self, request: "LookupRequest", timeout: Any) -> Any:
         """Return the requested transform; wait at most `timeout` until it is available.
 
         Raises:
@@ -132,10 +132,10 @@ class BufferInterface:
         """
         raise NotImplementedException
 
-    def _whether(self, asked: "LookupRequest", timeout: Any) -> tuple[int, str]:
+    def _check(self, request: "LookupRequest", timeout: Any) -> tuple[int, str]:
         """Return whether a lookup succeeds within the timeout, as (1, "") or (0, reason)."""
         try:
-            self._look_up(asked, timeout)
+            self._look_up(request, timeout)
         except NotImplementedException:
             raise
         except TransformException as error:
@@ -156,7 +156,7 @@ class BufferInterface:
         Raises:
             TransformException: If the transform is not available in time.
         """
-        return self._look_up(question(target_frame, source_frame, time), timeout)
+        return self._look_up(lookup_request(target_frame, source_frame, time), timeout)
 
     def lookup_transform_full(
         self,
@@ -180,8 +180,8 @@ class BufferInterface:
         Raises:
             TransformException: If the transform is not available in time.
         """
-        asked = full_question(target_frame, target_time, source_frame, source_time, fixed_frame)
-        return self._look_up(asked, timeout)
+        request = full_request(target_frame, target_time, source_frame, source_time, fixed_frame)
+        return self._look_up(request, timeout)
 
     def can_transform(
         self,
@@ -195,7 +195,7 @@ class BufferInterface:
 
         With `return_debug_tuple`, return (1, "") or (0, reason) instead.
         """
-        found = self._whether(question(target_frame, source_frame, time), timeout)
+        found = self._check(lookup_request(target_frame, source_frame, time), timeout)
         return found if return_debug_tuple else bool(found[0])
 
     def can_transform_full(
@@ -212,8 +212,8 @@ class BufferInterface:
 
         With `return_debug_tuple`, return (1, "") or (0, reason) instead.
         """
-        asked = full_question(target_frame, target_time, source_frame, source_time, fixed_frame)
-        found = self._whether(asked, timeout)
+        request = full_request(target_frame, target_time, source_frame, source_time, fixed_frame)
+        found = self._check(request, timeout)
         return found if return_debug_tuple else bool(found[0])
 
     def transform(
@@ -280,12 +280,16 @@ class LookupRequest:
     fixed: str | None = None
 
     def answer(self, frames: Frames) -> TransformStamped:
-        """Look up the transform in `frames`; raise TransformException if the lookup fails."""
+        """Look up the transform in the buffer `frames`.
+
+        Raises:
+            TransformException: If the lookup fails.
+        """
         if self.fixed is None:
             return frames.lookup_transform(self.target, self.source, self.time)
         return frames.lookup_transform_full(*self._full)
 
-    def why_not(self, frames: Frames) -> str:
+    def failure_reason(self, frames: Frames) -> str:
         """Return the reason why the lookup in the buffer `frames` fails; "" if it succeeds."""
         if self.fixed is None:
             return frames.why_not(self.target, self.source, self.time)
@@ -303,7 +307,7 @@ class LookupRequest:
         return self.target, self.target_time, self.source, self.time, self.fixed or ""
 
 
-def question(target_frame: str, source_frame: str, time: Any) -> LookupRequest:
+def lookup_request(target_frame: str, source_frame: str, time: Any) -> LookupRequest:
     """Check the arguments of `lookup_transform`; return a `LookupRequest`.
 
     Raises:
@@ -313,7 +317,7 @@ def question(target_frame: str, source_frame: str, time: Any) -> LookupRequest:
     return LookupRequest(target_frame, source_frame, stamp(time))
 
 
-def full_question(
+def full_request(
     target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
 ) -> LookupRequest:
     """Check the arguments of `lookup_transform_full`; return a `LookupRequest`.
@@ -349,7 +353,7 @@ def stamp(time: Any) -> Stamp:
     )
 
 
-def length(timeout: Any) -> int:
+def nanoseconds_of(timeout: Any) -> int:
     """Return the nanoseconds in an rclpy Duration.
 
     Raises:
@@ -376,7 +380,7 @@ class BufferCore:
 
     def __init__(self, cache_time: Duration | None = None) -> None:
         self._program = program.current()
-        kept = 10_000_000_000 if cache_time is None else length(cache_time)
+        kept = 10_000_000_000 if cache_time is None else nanoseconds_of(cache_time)
         self.frames = Frames(kept, log=self._log)
         self.hints = LookupHints(self._program, self.frames)
 
@@ -415,59 +419,59 @@ class BufferCore:
 
     # Lookups
 
-    def answer(self, asked: LookupRequest) -> Any:
+    def answer(self, request: LookupRequest) -> Any:
         """Look up the requested transform; return a geometry_msgs TransformStamped message."""
-        return values.unpack_transform(self._ask(lambda: self._looked_up(asked)))
+        return values.unpack_transform(self._ask(lambda: self._looked_up(request)))
 
-    def _looked_up(self, asked: LookupRequest) -> TransformStamped:
+    def _looked_up(self, request: LookupRequest) -> TransformStamped:
         try:
-            found = asked.answer(self.frames)
+            found = request.answer(self.frames)
         except TransformException as error:
-            self.hints.refuse(asked.target, asked.source, error)
+            self.hints.record_failure(request.target, request.source, error)
             raise
-        if asked.fixed is None:
-            self.hints.answer(asked.target, asked.source, asked.time)
+        if request.fixed is None:
+            self.hints.record_success(request.target, request.source, request.time)
         return found
 
-    def _whether_now(self, asked: LookupRequest) -> tuple[int, str]:
-        reason: str = self._ask(lambda: self._why_not(asked))
+    def _check_now(self, request: LookupRequest) -> tuple[int, str]:
+        reason: str = self._ask(lambda: self._why_not(request))
         if reason:
             self._program.looked_in_vain()
         return int(not reason), reason
 
-    def _why_not(self, asked: LookupRequest) -> str:
-        reason = asked.why_not(self.frames)
-        self.hints.wait()
+    def _why_not(self, request: LookupRequest) -> str:
+        reason = request.failure_reason(self.frames)
+        self.hints.record_wait()
         if reason:
-            self.hints.look_in_vain(asked.target, asked.source)
+            self.hints.record_failed_check(request.target, request.source)
         return reason
 
-    def lookup_transform_core(self, *asked: Any, **named: Any) -> Any:
+    def lookup_transform_core(self, *args: Any, **kwargs: Any) -> Any:
         """Return the pose of the source frame in the target frame, as a TransformStamped message.
 
         Raises:
             TransformException: If the transform is not available.
         """
-        return self.answer(question(*asked, **named))
+        return self.answer(lookup_request(*args, **kwargs))
 
-    def lookup_transform_full_core(self, *asked: Any, **named: Any) -> Any:
+    def lookup_transform_full_core(self, *args: Any, **kwargs: Any) -> Any:
         """Return the pose of the source frame at one time in the target frame at another time.
 
         Raises:
             TransformException: If the transform is not available.
         """
-        return self.answer(full_question(*asked, **named))
+        return self.answer(full_request(*args, **kwargs))
 
-    def can_transform_core(self, *asked: Any, **named: Any) -> tuple[int, str]:
+    def can_transform_core(self, *args: Any, **kwargs: Any) -> tuple[int, str]:
         """Return whether `lookup_transform_core` would succeed, as (1, "") or (0, reason)."""
-        return self._whether_now(question(*asked, **named))
+        return self._check_now(lookup_request(*args, **kwargs))
 
-    def can_transform_full_core(self, *asked: Any, **named: Any) -> tuple[int, str]:
+    def can_transform_full_core(self, *args: Any, **kwargs: Any) -> tuple[int, str]:
         """Return whether `lookup_transform_full_core` would succeed, as (1, "") or (0, reason)."""
-        return self._whether_now(full_question(*asked, **named))
+        return self._check_now(full_request(*args, **kwargs))
 
     def get_latest_common_time(self, target_frame: str, source_frame: str) -> Time:
-        """Return the newest time at which every edge between two frames has data."""
+        """Return the newest time at which all transforms between two frames are known."""
         stamp = self._ask(lambda: self.frames.get_latest_common_time(target_frame, source_frame))
         return Time(nanoseconds=stamp)
 
@@ -507,24 +511,24 @@ class Buffer(BufferCore, BufferInterface):
 
     # Lookups that block
 
-    def _look_up(self, asked: LookupRequest, timeout: Any) -> Any:
-        self._wait(asked, timeout)
-        return self.answer(asked)
+    def _look_up(self, request: LookupRequest, timeout: Any) -> Any:
+        self._wait(request, timeout)
+        return self.answer(request)
 
-    def _whether(self, asked: LookupRequest, timeout: Any) -> tuple[int, str]:
-        self._wait(asked, timeout)
-        return self._whether_now(asked)
+    def _check(self, request: LookupRequest, timeout: Any) -> tuple[int, str]:
+        self._wait(request, timeout)
+        return self._check_now(request)
 
-    def _wait(self, asked: LookupRequest, timeout: Any) -> None:
+    def _wait(self, request: LookupRequest, timeout: Any) -> None:
         """Wait until the lookup succeeds or can never succeed, at most until the timeout."""
-        limit = length(timeout)
+        limit = nanoseconds_of(timeout)
         if limit > 0:
-            self.hints.wait()
-            self._ask(lambda: self._until(asked, limit))
+            self.hints.record_wait()
+            self._ask(lambda: self._until(request, limit))
 
-    async def _until(self, asked: LookupRequest, limit: int) -> None:
+    async def _until(self, request: LookupRequest, limit: int) -> None:
         clock = self._program.clock
-        attempt = asyncio.ensure_future(asked.wait(self.frames, clock))
+        attempt = asyncio.ensure_future(request.wait(self.frames, clock))
         try:
             await self._program.first_of(attempt, until=clock.now() + limit, phase=Phase.WATCH)
         finally:
@@ -533,24 +537,24 @@ class Buffer(BufferCore, BufferInterface):
 
     # Lookups that return futures
 
-    def wait_for_transform_async(self, *asked: Any, **named: Any) -> Future:
+    def wait_for_transform_async(self, *args: Any, **kwargs: Any) -> Future:
         """Return a future of the transform, which completes when the transform is available."""
-        return self.promise(question(*asked, **named))
+        return self.promise(lookup_request(*args, **kwargs))
 
-    def wait_for_transform_full_async(self, *asked: Any, **named: Any) -> Future:
+    def wait_for_transform_full_async(self, *args: Any, **kwargs: Any) -> Future:
         """Return a future of the transform between two frames, each at its own time."""
-        return self.promise(full_question(*asked, **named))
+        return self.promise(full_request(*args, **kwargs))
 
-    def promise(self, asked: LookupRequest) -> Future:
+    def promise(self, request: LookupRequest) -> Future:
         """Return a future of the transform; it completes when the transform is available."""
         future = Future(executor=self._program.executor)
-        self.hints.wait()
+        self.hints.record_wait()
 
         def attempt() -> bool:
             if future.cancelled():
                 return True
             try:
-                found = asked.answer(self.frames)
+                found = request.answer(self.frames)
             except TransformException:
                 return False
             future.set_result(values.unpack_transform(found))
@@ -571,12 +575,12 @@ class Buffer(BufferCore, BufferInterface):
         self._ask(start)
         return future
 
-    async def lookup_transform_async(self, *asked: Any, **named: Any) -> Any:
+    async def lookup_transform_async(self, *args: Any, **kwargs: Any) -> Any:
         """Wait until a transform is available, and return it."""
-        await self.wait_for_transform_async(*asked, **named)
-        return self.lookup_transform_core(*asked, **named)
+        await self.wait_for_transform_async(*args, **kwargs)
+        return self.lookup_transform_core(*args, **kwargs)
 
-    async def lookup_transform_full_async(self, *asked: Any, **named: Any) -> Any:
+    async def lookup_transform_full_async(self, *args: Any, **kwargs: Any) -> Any:
         """Wait for the transform between two frames, each at its own time; return the transform."""
-        await self.wait_for_transform_full_async(*asked, **named)
-        return self.lookup_transform_full_core(*asked, **named)
+        await self.wait_for_transform_full_async(*args, **kwargs)
+        return self.lookup_transform_full_core(*args, **kwargs)

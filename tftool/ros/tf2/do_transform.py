@@ -155,10 +155,10 @@ def do_transform_cloud(cloud: Any, transform: Any) -> Any:
     Raises:
         AssertionError: If the cloud has no fields x, y and z.
     """
-    from tftool.ros.tf2.point_clouds import moved_data
+    from tftool.ros.tf2.point_clouds import transformed_data
 
     result = duplicate(cloud)
-    result.data = moved_data(cloud, _transform_of(transform))
+    result.data = transformed_data(cloud, _transform_of(transform))
     if hasattr(transform, "header"):
         result.header.frame_id = transform.header.frame_id
     return result

@@ -44,11 +44,11 @@ class LookupHints:
         self.has_listener = False
         program.advice.append(self.summary)
 
-    def wait(self) -> None:
+    def record_wait(self) -> None:
         """Record that the program waits for transforms, or tests whether they are available."""
         self._waits = True
 
-    def answer(self, target: str, source: str, time: Stamp) -> None:
+    def record_success(self, target: str, source: str, time: Stamp) -> None:
         """Record a lookup that succeeded."""
         self._asked += 1
         self._refused_since.pop((target, source), None)
@@ -57,8 +57,8 @@ class LookupHints:
         if time and not self._waits and self._program.strict and time == self._program.clock.now():
             self._just_in_time += self._frames.newest_common(target, source) != 0
 
-    def refuse(self, target: str, source: str, error: TransformException) -> None:
-        """Record a lookup that failed; log the reason if lookups have failed for a long time."""
+    def record_failure(self, target: str, source: str, error: TransformException) -> None:
+        """Record a lookup that failed; log the reason if it has failed for a long time."""
         self._asked += 1
         now = self._program.clock.now()
         since = self._refused_since.setdefault((target, source), now)
@@ -83,8 +83,8 @@ class LookupHints:
                 if self._early >= MANY and not self._program.strict and self._is_early:
                     self._say("early", self._early_text())
 
-    def look_in_vain(self, target: str, source: str) -> None:
-        """Record a failed `can_transform`; log the reason if such calls have failed for long."""
+    def record_failed_check(self, target: str, source: str) -> None:
+        """Record a `can_transform` that returned False; log the reason after many seconds."""
         self._waits = True
         self._hint_that_nothing_arrives()
         now = self._program.clock.now()
@@ -98,7 +98,7 @@ class LookupHints:
                 pass
 
     def summary(self) -> str:
-        """Return a hint about lookups at times newer than the data; "" for few such lookups."""
+        """Return a hint about lookups at times newer than the data; "" if there were few."""
         return self._early_text() if self._is_early else ""
 
     @property
@@ -116,7 +116,7 @@ class LookupHints:
         return f"{told}: use Time(), the latest, or a timeout"
 
     def _sent_once(self, target: str, source: str, now: Stamp) -> Iterator[FrameInfo]:
-        """Yield each edge above `target` and `source` whose only sample was sent long ago."""
+        """Yield `target`, `source` and their ancestors whose only transform was sent long ago."""
         infos = {info.frame: info for info in self._frames.snapshot(now).frames}
         for frame in (target, source):
             seen: set[str] = set()
@@ -130,7 +130,7 @@ class LookupHints:
                 info = infos.get(info.parent)
 
     def _hint_that_nothing_arrives(self) -> None:
-        """If the buffer is empty at a lookup, log a hint about the reason."""
+        """Log why no transform has arrived, if the buffer is still empty."""
         owner = self._program
         if self._frames.frames():
             return

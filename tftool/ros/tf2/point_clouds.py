@@ -20,8 +20,8 @@ _KINDS = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"
 """numpy's type code for each datatype of a PointField."""
 
 
-def _named(fields: Iterable[Any]) -> list[tuple[str, Any]]:
-    """Return (name, (field, index)) for each number of a point.
+def _numbers_of_point(fields: Iterable[Any]) -> list[tuple[str, Any]]:
+    """Return (name, (field, index in the field)) for each number of a point.
 
     A field `x` with a count of 3 has three numbers, named x_0, x_1 and x_2.
     """
@@ -57,7 +57,7 @@ def dtype_from_fields(
         )
     order = ">" if is_bigendian else "<"
     names, formats, offsets = [], [], []
-    for name, (field, element) in _named(fields):
+    for name, (field, element) in _numbers_of_point(fields):
         kind = _KINDS.get(field.datatype)
         if kind is None:
             raise ValueError(f"field '{name}' has the unknown datatype {field.datatype}")
@@ -71,7 +71,7 @@ def dtype_from_fields(
     return np.dtype(layout)  # type: ignore[call-overload, no-any-return]
 
 
-def rows_of(cloud: Any, fields: Iterable[Any], data: bytes | bytearray) -> npt.NDArray[Any]:
+def points_array(cloud: Any, fields: Iterable[Any], data: bytes | bytearray) -> npt.NDArray[Any]:
     """Return some fields of a cloud's points as a structured array of shape (height, width).
 
     Args:
@@ -84,7 +84,7 @@ def rows_of(cloud: Any, fields: Iterable[Any], data: bytes | bytearray) -> npt.N
     return np.ndarray((cloud.height, cloud.width), form, data, 0, steps)
 
 
-def moved_data(cloud: Any, a_from_b: Transform) -> "array.array[int]":
+def transformed_data(cloud: Any, target_from_source: Transform) -> "array.array[int]":
     """Return the data of a cloud with its points transformed, and all other fields unchanged.
 
     Raises:
@@ -95,9 +95,9 @@ def moved_data(cloud: Any, a_from_b: Transform) -> "array.array[int]":
         raise AssertionError("Point cloud needs the fields x, y, and z for the transformation")
     data = bytearray(cloud.data.tobytes())
     # A view of the coordinates in the data: writing to it changes the data.
-    rows = rows_of(cloud, [fields[axis] for axis in "xyz"], data)
+    rows = points_array(cloud, [fields[axis] for axis in "xyz"], data)
     points = np.stack([rows[axis].ravel() for axis in "xyz"], axis=1)
-    for axis, values in zip("xyz", quantities.points(a_from_b, points).T, strict=True):
+    for axis, values in zip("xyz", quantities.points(target_from_source, points).T, strict=True):
         rows[axis] = values.reshape(rows.shape)
     return array.array("B", data)
 
@@ -128,7 +128,7 @@ def read_points(
     needed = (cloud.height - 1) * cloud.row_step + cloud.width * cloud.point_step
     if cloud.width and cloud.height and len(data) < needed:
         raise AssertionError(f"the cloud's data has {len(data)} bytes, but {needed} are needed")
-    points: npt.NDArray[Any] = rows_of(cloud, cloud.fields, data or bytes(1)).ravel()
+    points: npt.NDArray[Any] = points_array(cloud, cloud.fields, data or bytes(1)).ravel()
     if field_names is not None:
         missing = [name for name in field_names if name not in (points.dtype.names or ())]
         if missing:
@@ -164,7 +164,7 @@ def read_points_numpy(
     Raises:
         AssertionError: If the fields have different types, or for the reasons in `read_points`.
     """
-    wanted = _named(cloud.fields)
+    wanted = _numbers_of_point(cloud.fields)
     if field_names is not None:
         wanted = [pair for pair in wanted if pair[0] in field_names]
     if len({field.datatype for _, (field, _) in wanted}) > 1:

@@ -22,9 +22,9 @@ from tftool.ros.tf2.buffer import (
     Buffer,
     BufferInterface,
     LookupRequest,
-    full_question,
-    length,
-    question,
+    full_request,
+    lookup_request,
+    nanoseconds_of,
 )
 
 _PADDING = Duration(seconds=2.0)
@@ -69,22 +69,22 @@ class BufferClient(BufferInterface):
         """Destroy the action client."""
         self.action_client.destroy()
 
-    def _look_up(self, asked: LookupRequest, timeout: Any) -> Any:
+    def _look_up(self, request: LookupRequest, timeout: Any) -> Any:
         if not self.action_client.server_is_ready():
             raise TimeoutException("The BufferServer is not ready.")
         goal = _action().Goal(
-            timeout=Duration(nanoseconds=length(timeout)).to_msg(),
-            target_frame=asked.target,
-            target_time=time_message(asked.target_time),
-            source_frame=asked.source,
-            source_time=time_message(asked.time),
-            fixed_frame=asked.fixed or "",
-            advanced=asked.fixed is not None,
+            timeout=Duration(nanoseconds=nanoseconds_of(timeout)).to_msg(),
+            target_frame=request.target,
+            target_time=time_message(request.target_time),
+            source_frame=request.source,
+            source_time=time_message(request.time),
+            fixed_frame=request.fixed or "",
+            advanced=request.fixed is not None,
         )
         padding = self.timeout_padding
-        extra = length(padding) / 1e9 if isinstance(padding, Duration) else float(padding)
+        extra = nanoseconds_of(padding) / 1e9 if isinstance(padding, Duration) else float(padding)
         # The response needs some time to arrive, even if no padding is added.
-        limit = length(timeout) / 1e9 + max(extra, 0.1)
+        limit = nanoseconds_of(timeout) / 1e9 + max(extra, 0.1)
         seat = seat_of(self.node)
         sent = self.action_client.send_goal_async(goal)
         wait_for(seat, sent, limit)
@@ -121,17 +121,17 @@ class BufferServer:
 
     async def _answer(self, goal: Any) -> Any:
         sent = goal.request
-        asked = question(sent.target_frame, sent.source_frame, sent.source_time)
+        request = lookup_request(sent.target_frame, sent.source_frame, sent.source_time)
         if sent.advanced:
-            asked = full_question(
+            request = full_request(
                 *(sent.target_frame, sent.target_time),
                 *(sent.source_frame, sent.source_time, sent.fixed_frame),
             )
-        found = self.buffer.promise(asked)
-        await self._first(found, Duration.from_msg(sent.timeout))
+        found = self.buffer.promise(request)
+        await self._wait_for(found, Duration.from_msg(sent.timeout))
         result = _action().Result()
         try:
-            result.transform = self.buffer.answer(asked)
+            result.transform = self.buffer.answer(request)
         except TransformException as refused:
             result.error.error = next(
                 number for kind, number in _NUMBERS if isinstance(refused, kind)
@@ -144,9 +144,9 @@ class BufferServer:
             found.cancel()
         return result
 
-    async def _first(self, found: Future, limit: Duration) -> None:
-        """Wait until the future `found` is done, or until the time `limit` has passed."""
-        if found.done() or limit.nanoseconds <= 0:
+    async def _wait_for(self, future: Future, limit: Duration) -> None:
+        """Wait until `future` is done, at most for the time `limit`."""
+        if future.done() or limit.nanoseconds <= 0:
             return
         over = Future()
 
@@ -155,7 +155,7 @@ class BufferServer:
                 over.set_result(None)
 
         timer = self.node.create_timer(limit.nanoseconds / 1e9, end)
-        found.add_done_callback(end)
+        future.add_done_callback(end)
         try:
             await over
         finally:
