@@ -13,7 +13,7 @@ import pytest
 import tftool as package
 from tests.patience import PATIENCE
 from tftool.app import main as app
-from tftool.app.command_line import made
+from tftool.app.command_line import build_command
 from tftool.app.index import COMMANDS, painted
 from tftool.base.errors import (
     InputError,
@@ -98,7 +98,7 @@ def test_one_option_is_spelt_alike_in_all_commands():
     # `--joint` is a joint to calibrate in one command, and the position of a joint in others.
     other |= {("calibrate", "--joint")}
     spelt = {}
-    for command in map(made, COMMANDS):
+    for command in map(build_command, COMMANDS):
         for param in command.params:
             for name in param.opts:
                 if name.startswith("--") and (command.name, name) not in other:

@@ -152,8 +152,7 @@ def test_show_args_prints_what_a_file_takes(capsys):
         (
             ["launch", "pkg_tf"],
             2,
-            "no launch file of package 'pkg_tf' is named: add its name. The package has "
-            "carrot.launch",
+            "write the name of a launch file after package 'pkg_tf'. The package has carrot.launch",
         ),
         (["launch", "pkg_tf", "x.launch.py"], 2, "has no launch file 'x.launch.py'"),
         (["launch", "gone.launch.py"], 3, "cannot read 'gone.launch.py'"),

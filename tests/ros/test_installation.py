@@ -58,7 +58,9 @@ def test_every_part_that_ros_would_not_find_is_listed(tftool, package):
 
     assert result.status == 1
     found = faults(result)
-    assert found[0].startswith("ROS 2 finds packages by an empty file 'resource/chase'")
+    assert found[0].startswith(
+        "ROS 2 would not find the package: add an empty file 'resource/chase'"
+    )
     assert "'install_scripts=$base/lib/chase'" in found[1]
     assert found[2].endswith(NO_ENTRY)
     assert found[3:] == [NO_LAUNCH, NO_DEPENDENCY]

@@ -328,8 +328,8 @@ def test_who_waits_for_an_actions_completion_too_late_is_told(tmp_path):
     )
 
     assert done.said("launch") == [
-        "this OnExecutionComplete is never called, as in ROS 2: its ExecuteProcess was executed "
-        "before. Register the handler above its target_action"
+        "this OnExecutionComplete is never called, as in ROS 2: its target_action, of type "
+        "ExecuteProcess, was executed earlier. Register the handler before that action"
     ]
 
 

@@ -87,11 +87,11 @@ def test_what_has_a_command_of_its_own_is_left_out_and_said(tmp_path):
     )
 
     assert done.said("launch") == [
-        "left out: 'rviz2 rviz2' needs a terminal of its own: run 'tftool view' in another "
+        "not started: 'rviz2 rviz2' needs a terminal of its own: run 'tftool view' in another "
         "terminal.",
         "prefix of a Node has no effect here",
-        "left out: 'turtlesim turtle_teleop_key' needs a terminal of its own: run 'tftool teleop' "
-        "in another terminal.",
+        "not started: 'turtlesim turtle_teleop_key' needs a terminal of its own: run 'tftool "
+        "teleop' in another terminal.",
     ]
     assert [str(one) for one in done.records if "Starting" in one.text] == [
         "[INFO] [1000.000000000] [there.turtlesim]: "

@@ -207,7 +207,7 @@ def test_a_file_is_included_from_beside_the_one_that_includes_it(tmp_path):
     ("text", "told"),
     [
         ("<node pkg='p' exec='e'>\n<parm name='a' value='1'/></node>",
-         ":3: 'node' has no 'parm' inside; did you mean 'param'?"),
+         ":3: 'node' cannot contain 'parm'; did you mean 'param'?"),
         ("<node pkg='p' exec='e'>\n<param name='a' vale='1' value='1'/></node>",
          ":3: 'param' has no attribute 'vale'; did you mean 'value'?"),
         ("<node pkg='p' exec='e'><remap frm='a' to='b'/></node>",
@@ -221,7 +221,7 @@ def test_a_file_is_included_from_beside_the_one_that_includes_it(tmp_path):
          ":2: 'load_composable_node' needs the attribute 'target'"),
         ("<node pkg='p' exec='e'>\n<param name='a' value='1,x' value-sep=',' type='lst_of_int'/>"
          "</node>", "not 'lst_of_int'; did you mean 'list_of_int'?"),
-        ("<arg name='a'><choise value='1'/></arg>", "'choise' inside; did you mean 'choice'?"),
+        ("<arg name='a'><choise value='1'/></arg>", "contain 'choise'; did you mean 'choice'?"),
         ("<log message='$(find-pkg-shar x)'/>", "mean '$(find-pkg-share …)'?"),
         ("<group scoped='ture'/>", ":2: 'scoped' of 'group' must be true or false, not 'ture'"),
         ("<executable cmd=\"echo 'a\"/>", ":2: a quote in 'echo 'a' is not closed"),

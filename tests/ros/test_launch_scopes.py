@@ -269,7 +269,9 @@ def test_the_container_that_a_launch_starts_is_waited_for_live_too(tmp_path):
     done = launch_live(container_launch(tmp_path, brief), tmp_path)
 
     assert sorted(done.texts("s.c")) == ["P  one [] []", "Q  two [] []"]
-    assert not [text for text in done.said("launch") if "left out" in text]
+    assert not [
+        text for text in done.said("launch") if "not loaded" in text or "not started" in text
+    ]
 
 
 @pytest.mark.parametrize("live", [False, True])
@@ -279,7 +281,7 @@ def test_a_container_that_ends_without_its_service_is_waited_for_no_longer(tmp_p
     done = launch_live(file, tmp_path) if live else launch(file, seconds=4, start=tmp_path)
 
     left_out = done.said("launch")
-    assert [text.split(": ")[:2] for text in left_out] == [["left out", "P"], ["left out", "Q"]]
+    assert [text.split(": ")[:2] for text in left_out] == [["not loaded", "P"], ["not loaded", "Q"]]
     assert done.failed == []
 
 
@@ -329,8 +331,8 @@ def test_components_are_left_out_with_a_line_and_the_rest_is_launched(tmp_path, 
     done = described(tmp_path, f"IncludeLaunchDescription({str(file)!r})")
 
     container, component, rest = done.said("launch")
-    assert container.startswith("left out: the container /s/box: 'rclcpp_components' is not a")
-    assert component.startswith("left out: p::Talker: tftool cannot run components")
+    assert container.startswith("not started: the container /s/box: 'rclcpp_components' is not a")
+    assert component.startswith("not loaded: p::Talker: tftool cannot run components")
     assert "no container '/s/box' runs" in component
     assert rest == "on"
 
@@ -354,7 +356,7 @@ def test_a_container_may_be_a_file_of_no_package(tmp_path):
     assert done.texts("c") == ["here"]
     (left_out,) = done.said("launch")
     fault = f"the container /c: '{tmp_path / 'box.sh'}' is not a Python file"
-    assert left_out.startswith(f"left out: {fault}")
+    assert left_out.startswith(f"not started: {fault}")
 
 
 @pytest.mark.parametrize(

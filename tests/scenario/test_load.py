@@ -282,7 +282,7 @@ def test_a_tag_constructs_nothing(tag):
     sentence = told(SMALLEST + f"about: {tag}\n")[0]
 
     assert sentence.startswith("tags (")
-    assert sentence.endswith("are not used in scenarios")
+    assert sentence.endswith("are not allowed in scenarios")
 
 
 def test_a_tag_hides_no_other_mistake():
@@ -450,14 +450,14 @@ def test_a_value_from_outside_is_checked_where_it_is_used():
 @pytest.mark.parametrize(
     ("nodes", "wrong"),
     [
-        ("turtlesim", "expected a list (one node an item); begin each item with '- '"),
+        ("turtlesim", "expected a list (one node per item); begin each item with '- '"),
         ("[[]]", "expected a mapping (a node's kind), not a list"),
         ("[~]", "no kind of node is given here: write one of turtlesim, broadcaster, "),
         ("[wheel]", "there is no kind of node 'wheel'; there are turtlesim, broadcaster, "),
         (
             "[{broadcaster: ~, turtle: turtle1}]",
             "'turtle' is at the same level as 'broadcaster', not below it: "
-            "write 'broadcaster: {turtle: ...}', or indent it further",
+            "write 'broadcaster: {turtle: ...}', or indent 'turtle' further",
         ),
         (
             "[{turtlesim: ~, teleop: ~}]",
@@ -517,7 +517,7 @@ def test_none_may_come_from_an_argument():
         ("{at: 1 s, flyy: 1}", "unknown key 'flyy'; an action is one of keys, drive, "),
         (
             "{at: 1 s, kill: a, reset: ~}",
-            "an action can have only one subject: write kill, reset as",
+            "an action can have only one of these keys: write kill, reset as",
         ),
         ("{kill: turtle1}", "an action (kill) needs the key 'at'"),
         ("{at: 3 s, kill: a}", "3 s is after the end of the scenario, which lasts 1 s"),
@@ -550,7 +550,7 @@ LOOKUP = "lookup: {target: a, source: b}"
             "{at: 1 s, every: 1 s, trees: 1}",
             "'every' is only allowed together with 'by', 'during' or 'always'",
         ),
-        ("{at: [], trees: 1}", "the list of moments is empty"),
+        ("{at: [], trees: 1}", "the list of times is empty"),
         ("{always: false, trees: 1}", "'always: false' tests nothing: leave the expectation out"),
         ("{during: [1 s, 0 s], trees: 1}", "the first time of 'during' is after the last time"),
         ("{during: [1 s], trees: 1}", "first and last moment takes 2 values, not 1"),

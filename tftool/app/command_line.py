@@ -61,7 +61,7 @@ def run_command(words: Sequence[str], providers: "Providers | None" = None) -> i
     # Since 0.26, typer contains a copy of click: its base classes are found through typer's
     # classes, so that the errors of either version are caught.
     wrong_usage = cast(type[Exception], typer.BadParameter.__mro__[1])
-    command = made(name)
+    command = build_command(name)
     invocation = Invocation(providers, lambda words: run_command(words, providers))
     try:
         with command.make_context(f"tftool {name}", rest, obj=invocation) as context:
@@ -82,13 +82,13 @@ def run_command(words: Sequence[str], providers: "Providers | None" = None) -> i
     return status if isinstance(status, int) else ExitStatus.DONE
 
 
-def refuse_option(word: str, known: Iterable[str]) -> UsageError:
+def unknown_option(word: str, known: Iterable[str]) -> UsageError:
     """Return the error for an unknown option before the name of a command, with similar options."""
     return UsageError(_did_you_mean(f"No such option: {word}", word, known))
 
 
 def _did_you_mean(refusal: str, word: str, known: Iterable[str], quote: str = "") -> str:
-    near = " or ".join(f"{quote}{one}{quote}" for one in _nearest(word, known))
+    near = " or ".join(f"{quote}{one}{quote}" for one in _similar_words(word, known))
     meant = f" Did you mean {near}?" if near else ""
     return f"{refusal}.{meant} Try 'tftool --help'."
 
@@ -99,7 +99,7 @@ def _sentence_of(error: Any) -> str:
     near = [one for one in getattr(error, "possibilities", None) or () if "help" not in one]
     if hasattr(error, "possibilities"):
         sentence = error.message
-        near = _nearest(str(getattr(error, "option_name", "")), near)
+        near = _similar_words(str(getattr(error, "option_name", "")), near)
     if near:
         # click sorts the suggestions alphabetically; here the most similar is first.
         sentence = f"{error.message.rstrip('.')}. Did you mean {' or '.join(near)}?"
@@ -108,36 +108,36 @@ def _sentence_of(error: Any) -> str:
     return sentence
 
 
-def _nearest(written: str, near: Iterable[str]) -> list[str]:
-    """Return the words in `near` that are similar to a mistyped word, the most similar first."""
+def _similar_words(mistyped: str, candidates: Iterable[str]) -> list[str]:
+    """Return the candidates that are similar to a mistyped word, the most similar first."""
 
     def likeness_of(one: str) -> float:
         # The first letter is rarely mistyped.
-        same = one.lstrip("-")[:1] == written.lstrip("-")[:1]
-        return SequenceMatcher(None, written, one).ratio() + 0.1 * same
+        same = one.lstrip("-")[:1] == mistyped.lstrip("-")[:1]
+        return SequenceMatcher(None, mistyped, one).ratio() + 0.1 * same
 
-    likeness = {one: likeness_of(one) for one in near}
+    likeness = {one: likeness_of(one) for one in candidates}
     best = max(likeness.values(), default=0.0)
     return sorted(
-        (one for one in near if likeness[one] > max(best - 0.1, UNLIKE)),
+        (one for one in candidates if likeness[one] > max(best - 0.1, UNLIKE)),
         key=lambda one: -likeness[one],
     )
 
 
-def made(name: str) -> Any:
+def build_command(name: str) -> Any:
     """Build the typer command called `name`, with all options."""
     command = load(name)
     # Help in plain text, because importing rich takes longer than the rest of the start.
     app = typer.Typer(rich_markup_mode=None, add_completion=False)
     settings = {"help_option_names": ["-h", "--help"], **command.kind.settings}
-    text = _laid_out(command.__doc__ or "")
+    text = _help_text(command.__doc__ or "")
     app.command(name, cls=LaidOutCommand, help=text, context_settings=settings)(
         typer_function(command)
     )
     return get_command(app)
 
 
-def _laid_out(docstring: str) -> str:
+def _help_text(docstring: str) -> str:
     """Return the help text made from a docstring; examples keep their line breaks."""
     paragraphs = cleandoc(docstring).split("\n\n")
     # \b tells click not to wrap a paragraph.
@@ -145,7 +145,7 @@ def _laid_out(docstring: str) -> str:
 
 
 class LaidOutCommand(TyperCommand):
-    """Command whose help groups the options by subject, and hides session options by default."""
+    """Command whose help groups options by subject; --help-session adds options of sessions."""
 
     def __init__(self, name: str | None, **words: Any) -> None:
         super().__init__(name, **words)
@@ -155,8 +155,8 @@ class LaidOutCommand(TyperCommand):
     def parse_args(self, ctx: Any, args: list[str]) -> Any:
         """Parse the command line.
 
-        A word NAME:=VALUE becomes --argument NAME:=VALUE. Options for pose files are stored
-        together with the file that precedes each option.
+        A word NAME:=VALUE becomes --argument NAME:=VALUE. Each option for pose files is stored
+        with the file before the option.
         """
         if any(param.name == "argument" for param in self.params):
             args = [
@@ -172,7 +172,7 @@ class LaidOutCommand(TyperCommand):
         return super().parse_args(ctx, args)
 
     def _pose_options(self, args: list[str]) -> "Iterator[tuple[str | None, str, Any]]":
-        """Yield a tuple for each option for pose files: preceding file, name of the option, value.
+        """Yield (preceding file, name of the option, value) for each option for pose files.
 
         The file is None if no file precedes the option.
         """
@@ -192,7 +192,7 @@ class LaidOutCommand(TyperCommand):
                 file = word
 
     def invoke(self, ctx: Any) -> Any:
-        """Run the command; an option for pose files applies to the pose file before the option."""
+        """Run the command; use each option for pose files for the file before the option."""
         given = ctx.meta.get(_POSES)
         if not given:
             return super().invoke(ctx)
@@ -261,7 +261,7 @@ def _help_session() -> Any:
         expose_value=False,
         is_eager=True,
         callback=show,
-        help=f"Show this and the options of {SESSION.lower()}.",
+        help=f"Show this help with the options for {SESSION.lower()}.",
     )
 
 

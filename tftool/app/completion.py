@@ -107,18 +107,18 @@ def offers(words: Sequence[str]) -> list[Offer]:
     elif before[0] == "help":
         wanted = list(COMMANDS.items())
     elif before[0] in COMMANDS:
-        wanted = list(_of_command(before[0], before[1:], current))
+        wanted = list(_command_offers(before[0], before[1:], current))
     else:
         wanted = []
     return [offer for offer in wanted if offer[0].startswith(current)]
 
 
 def _is_plain(word: str, current: str) -> bool:
-    """Return whether to offer `word`: only options after a typed dash, else no options."""
+    """Return whether to offer `word`: after a typed dash only options, else only other words."""
     return word.startswith("-") == current.startswith("-")
 
 
-def _of_command(name: str, before: Sequence[str], current: str) -> Iterator[Offer]:
+def _command_offers(name: str, before: Sequence[str], current: str) -> Iterator[Offer]:
     """Yield the completions for a word of one command.
 
     Args:
@@ -126,13 +126,13 @@ def _of_command(name: str, before: Sequence[str], current: str) -> Iterator[Offe
         before: Words between the command and the word being typed.
         current: Beginning of the word being typed.
     """
-    from tftool.app.command_line import made
+    from tftool.app.command_line import build_command
 
-    params = made(name).params
+    params = build_command(name).params
     options = {one: param for param in params for one in (*param.opts, *param.secondary_opts)}
     arguments = [param for param in params if param.param_type_name == "argument"]
     if before and (option := options.get(before[-1])) is not None and _takes_value(option):
-        yield from _values(option.type, _called(option), before)
+        yield from _values(option.type, _value_name(option), before)
         return
     if current.startswith("-"):
         for param in params:
@@ -142,7 +142,7 @@ def _of_command(name: str, before: Sequence[str], current: str) -> Iterator[Offe
     place = _count(before, options)
     if name in _WORDS:
         yield from _WORDS[name](before[-place:] if place else [])
-    called = [word for param in arguments for word in _called(param).split()]
+    called = [word for param in arguments for word in _value_name(param).split()]
     if called:
         last = min(place, len(called) - 1)
         repeats = called[-1].endswith("...") or called[-1].endswith("…")
@@ -156,7 +156,7 @@ def _takes_value(option: Any) -> bool:
 
 
 def _count(before: Sequence[str], options: dict[str, Any]) -> int:
-    """Count the words that are neither options nor values of options."""
+    """Count the words in `before` that are neither options nor values of options."""
     words, is_value = 0, False
     for word in before:
         if is_value:
@@ -168,20 +168,20 @@ def _count(before: Sequence[str], options: dict[str, Any]) -> int:
     return words
 
 
-def _called(param: Any) -> str:
-    """Return the name of a parameter's value in the help, such as FRAME."""
+def _value_name(param: Any) -> str:
+    """Return the name that the help gives to a parameter's value, such as FRAME."""
     return str(param.metavar or "")
 
 
-def _values(kind: Any, called: str, before: Sequence[str]) -> Iterator[Offer]:
+def _values(kind: Any, value_name: str, before: Sequence[str]) -> Iterator[Offer]:
     """Yield the completions of a value.
 
     Args:
         kind: Type of the parameter in click.
-        called: Name of the value in the help, such as FRAME.
+        value_name: Name of the value in the help, such as FRAME.
         before: Words before the value.
     """
-    bare = called.strip("[]{}<>.…")
+    bare = value_name.strip("[]{}<>.…")
     choices = getattr(kind, "choices", None)
     if choices is not None:
         yield from ((str(getattr(one, "value", one)), "") for one in choices)
@@ -201,7 +201,7 @@ def _values(kind: Any, called: str, before: Sequence[str]) -> Iterator[Offer]:
 
 def _frames(before: Sequence[str]) -> list[str]:
     """Return the frame names of the file on the command line, or else of the running session."""
-    named = _frames_of_a_file([*_words_behind(), *before])
+    named = _frames_of_a_file([*_following_words(), *before])
     if named is not None:
         return named
     from tftool.world.link.link_options import REACHES, domain_here
@@ -212,7 +212,7 @@ def _frames(before: Sequence[str]) -> list[str]:
     return REACHES[0].frames_known(domain)
 
 
-def _words_behind() -> list[str]:
+def _following_words() -> list[str]:
     """Return the words after the word being typed, which often include FROM."""
     return os.environ.get(BEHIND, "").split("\n")
 

@@ -196,9 +196,9 @@ def _own_options(words: list[str]) -> list[str] | None:
         if word == "--":
             break
         if word not in known:
-            from tftool.app.command_line import refuse_option
+            from tftool.app.command_line import unknown_option
 
-            raise refuse_option(word, known)
+            raise unknown_option(word, known)
         asked.append(known[word])
     if "--help" in asked or not (asked or rest):
         show_help(overview())
@@ -224,7 +224,7 @@ def _complain(who: str, sentence: str) -> None:
 
 def _prepare_streams() -> None:
     """Ensure that stdout and stderr are open, and can print every character."""
-    codecs.register_error(_WRITTEN_PLAINLY, _written_plainly)
+    codecs.register_error(_WRITTEN_PLAINLY, _replace_character)
     for name in ("stdout", "stderr"):
         stream = getattr(sys, name)
         if stream is None:  # closed by the parent process
@@ -233,7 +233,7 @@ def _prepare_streams() -> None:
             stream.reconfigure(errors=_WRITTEN_PLAINLY)
 
 
-def _written_plainly(error: UnicodeError) -> tuple[str | bytes, int]:
+def _replace_character(error: UnicodeError) -> tuple[str | bytes, int]:
     """Encode a character that the encoding of a stream lacks; for `codecs.register_error`.
 
     Symbols that tftool prints become ASCII, other characters become backslash escapes.

@@ -29,13 +29,13 @@ NEAR = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class Judged:
-    """Result of one check: whether the answer is right, and the answer as text."""
+    """Result of one check: whether the answer is right (`ok`), and the answer as text."""
 
     ok: bool
     found: str
 
 
-def _meant(error: TransformException) -> str:
+def _frame_hint(error: TransformException) -> str:
     """Return the hint "did you mean …" in an error about an unknown frame; "" without a hint."""
     remedy = error.remedy if isinstance(error, LookupException) else ""
     return remedy if "did you mean" in remedy else ""
@@ -48,10 +48,10 @@ class AnswerCheck(ABC):
     def judge(self, answer: Any) -> Judged:
         """Compare an answer with the expected answer."""
 
-    def refused(self, error: TransformException) -> Judged:
-        """Return the result of the check if a question has no answer because of `error`."""
+    def judge_error(self, error: TransformException) -> Judged:
+        """Return the check's result for a question that failed with the exception `error`."""
         # Some of tf2's error texts end in ". ", others without it.
-        hint = _meant(error)
+        hint = _frame_hint(error)
         said = f"{str(error).rstrip(' .')}. {hint}" if hint else str(error)
         return Judged(False, f"{type(error).__name__}: {said}")
 
@@ -156,18 +156,18 @@ def range_form(unit: Unit, default: RangeCheck | None = None, tolerance: float =
 # Frames and names.
 
 
-def _nearest(wanted: Iterable[str], known: Collection[str]) -> str:
-    """Return the hint "; did you mean …" with the known names nearest to unknown names.
+def _nearest(names: Iterable[str], existing: Collection[str]) -> str:
+    """Return a hint "; did you mean …" for those `names` that do not exist.
 
     Args:
-        wanted: Names in the expectation.
-        known: Existing names.
+        names: Names in the expectation.
+        existing: Existing names.
 
     Returns:
-        Text to append to a message; "" if every name is known, or no known name is near.
+        The hint; "" if all names exist, or no existing name is similar.
     """
-    found = [near_names(name, known) for name in wanted if name not in known]
-    near = [f"'{names[0]}'" for names in found if names]
+    found = [near_names(name, existing) for name in names if name not in existing]
+    near = [f"'{similar[0]}'" for similar in found if similar]
     return f"; did you mean {', '.join(near)}?" if near else ""
 
 
@@ -301,7 +301,7 @@ class Tolerance:
     angle: float = NEAR
 
     def words(self, *, position: bool, angle: bool) -> str:
-        """Return the chosen tolerances as text in brackets; "" if they only cover rounding."""
+        """Return the selected tolerances as text in brackets; leave out default tolerances."""
         parts = []
         if position and self.position != NEAR:
             parts.append(f"{self.position:g} m")
@@ -350,7 +350,7 @@ class RefusalCheck(AnswerCheck):
         """Return a failed check, because the lookup has an answer."""
         return Judged(False, f"no exception: {_pose_text(answer)}")
 
-    def refused(self, error: TransformException) -> Judged:
+    def judge_error(self, error: TransformException) -> Judged:
         """Compare the lookup's exception with the expected exception."""
         ok = isinstance(error, getattr(errors, self.raises))
         ok = ok and (self.says is None or self.says in str(error))
@@ -458,7 +458,7 @@ POSE_FORM = Form(
 def _rotation(
     parts: Mapping[str, Any], reading: Reading, place: TextPlace
 ) -> tuple[Quaternion | None, str]:
-    """Return the rotation of an expected pose, and its text; (None, "") without a rotation."""
+    """Return (rotation, rotation as text) of an expected pose; (None, "") without a rotation."""
     angles = {key: parts[key] for key in ("roll", "pitch", "yaw") if parts[key] is not None}
     given = parts["rotation"]
     if given is not None:

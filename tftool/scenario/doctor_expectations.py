@@ -33,12 +33,12 @@ class DoctorRules:
     ignore: tuple[str, ...] = ()
     limits: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
 
-    def settings(self, given: "Settings") -> "Settings":
-        """Return a command's settings (`given`), with these rules' thresholds as defaults."""
+    def settings(self, settings: "Settings") -> "Settings":
+        """Return a command's settings, with these rules' thresholds as defaults."""
         limits = {name: dict(of) for name, of in self.limits.items()}
-        for name, of in given.limits.items():
+        for name, of in settings.limits.items():
             limits.setdefault(name, {}).update(of)
-        return replace(given, limits=limits)
+        return replace(settings, limits=limits)
 
 
 NO_RULES = DoctorRules()

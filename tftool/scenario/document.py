@@ -163,7 +163,7 @@ class _TreeReader:
         tag: str | None = getattr(event, "tag", None)
         if tag is not None and tag != "!":
             # Only recorded as a mistake, because tags construct nothing, and the rest can be read.
-            text = f"tags ({showable(tag)}) are not used in scenarios"
+            text = f"tags ({showable(tag)}) are not allowed in scenarios"
             self.document.mistakes.append(self.document.mistake(_place(event), text))
         place = _place(event)
         node: Node

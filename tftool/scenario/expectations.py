@@ -20,7 +20,7 @@ def judge(expectation: Expectation, scene: ScenarioWorld) -> Judged:
     try:
         answer = expectation.question.answer(scene)
     except TransformException as error:
-        return expectation.check.refused(error)
+        return expectation.check.judge_error(error)
     return expectation.check.judge(answer)
 
 

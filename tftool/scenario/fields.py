@@ -76,21 +76,21 @@ class Reading:
         return found
 
     def part(self, node: Node, text: str) -> Scalar:
-        """Return a part of a value's text as a node, with the position of the whole value."""
+        """Return `text`, a part of a value, as a node with the position of the whole value."""
         return Scalar(node.place, text.replace("$", "$$"))
 
-    def text(self, node: Node, wanted: str) -> str:
+    def text(self, node: Node, noun: str) -> str:
         """Return the text of a single value, with arguments inserted.
 
         Args:
             node: Node of the document to read.
-            wanted: Noun for messages, with its article, such as "a frame".
+            noun: Noun for messages, with its article, such as "a frame".
         """
         if not isinstance(node, Scalar):
             kind = "a list" if isinstance(node, document.Sequence) else "a mapping"
-            raise self.refuse(node, f"expected {wanted}, not {kind}")
+            raise self.refuse(node, f"expected {noun}, not {kind}")
         if node.is_nothing:
-            raise self.refuse(node, f"expected {wanted}, found nothing")
+            raise self.refuse(node, f"expected {noun}, found nothing")
 
         def value(match: re.Match[str]) -> str:
             name = match[1] or match[2]
@@ -108,13 +108,13 @@ class Reading:
 
         return _ARGUMENT.sub(value, node.text)
 
-    def entries(self, node: Node, wanted: str) -> dict[str, tuple[Scalar, Node]]:
+    def entries(self, node: Node, noun: str) -> dict[str, tuple[Scalar, Node]]:
         """Return a mapping's entries by key; a repeated key is a mistake."""
         if isinstance(node, Scalar) and node.is_nothing:
             return {}
         if not isinstance(node, document.Mapping):
             kind = "a list" if isinstance(node, document.Sequence) else quoted(node.text)
-            raise self.refuse(node, f"expected a mapping ({wanted}), not {kind}")
+            raise self.refuse(node, f"expected a mapping ({noun}), not {kind}")
         found: dict[str, tuple[Scalar, Node]] = {}
         for key, value in node.entries:
             if key.text in found:
@@ -124,31 +124,31 @@ class Reading:
                 found[key.text] = (key, value)
         return found
 
-    def items(self, node: Node, wanted: str) -> tuple[Node, ...]:
+    def items(self, node: Node, noun: str) -> tuple[Node, ...]:
         """Return the items of a list; an empty value is an empty list."""
         if isinstance(node, Scalar) and node.is_nothing:
             return ()
         if not isinstance(node, document.Sequence):
-            raise self.refuse(node, f"expected a list ({wanted}); begin each item with '- '")
+            raise self.refuse(node, f"expected a list ({noun}); begin each item with '- '")
         return node.items
 
-    def record(self, node: Node, known: Mapping[str, Key], what: str) -> dict[str, Any]:
+    def record(self, node: Node, known: Mapping[str, Key], noun: str) -> dict[str, Any]:
         """Read a mapping; return the value of each known key, or the default of a missing key.
 
         Args:
             node: The mapping.
             known: Readers of the known keys.
-            what: Noun for messages, with its article, such as "a broadcaster".
+            noun: Noun for messages, with its article, such as "a broadcaster".
         """
         entries = self.entries(node, ", ".join(known) or "empty")
-        return self.values(node.place, entries, known, what)
+        return self.values(node.place, entries, known, noun)
 
     def values(
         self,
         place: TextPlace,
         entries: Mapping[str, tuple[Scalar, Node]],
         known: Mapping[str, Key],
-        what: str,
+        noun: str,
     ) -> dict[str, Any]:
         """Read a mapping's entries with the readers of the known keys, as `record` does."""
         whole = True
@@ -158,7 +158,7 @@ class Reading:
                 whole = False
                 meant.update(near_names(name, known))
                 near = suggest(name, known, always=True)
-                self.note(key, f"{what} has no key {quoted(name)}{near}")
+                self.note(key, f"{noun} has no key {quoted(name)}{near}")
         found: dict[str, Any] = {}
         for name, wanted in known.items():
             if name in entries:
@@ -167,7 +167,7 @@ class Reading:
                 whole = False
                 # A misspelt key is not also reported as missing.
                 if name not in meant:
-                    self.note(place, f"{what} needs the key '{name}'")
+                    self.note(place, f"{noun} needs the key '{name}'")
             else:
                 found[name] = wanted.default
         self.whole(found.values())
@@ -296,7 +296,7 @@ def quoted(text: str) -> str:
 def tagged(
     node: Node,
     reading: Reading,
-    what: str,
+    noun: str,
     kinds: Mapping[str, type],
     common: Mapping[str, Key],
     beside: Mapping[str, Mapping[str, Key]],
@@ -306,7 +306,7 @@ def tagged(
     Args:
         node: The mapping.
         reading: Pass over the document.
-        what: Noun for messages, with its article, such as "an expectation".
+        noun: Noun for messages, with its article, such as "an expectation".
         kinds: Class for each key that names a class.
         common: Keys allowed next to the key of any class.
         beside: Further keys allowed next to the key of one class, by the key of the class.
@@ -314,8 +314,8 @@ def tagged(
     Returns:
         The key of the class, an object of the class, and the values of the other keys.
     """
-    entries = reading.entries(node, f"{listed(common)} and a subject")
-    tag = _tag(node, reading, what, kinds, common, beside)
+    entries = reading.entries(node, f"{listed(common)} and what {noun} is about")
+    tag = _tag(node, reading, noun, kinds, common, beside)
     kind = kinds[tag]
     parts = parts_of(kind)
     outside = {
@@ -325,7 +325,7 @@ def tagged(
     }
     inside = {key: field for key, (field, aside) in parts.items() if not aside}
     rest = {key: entry for key, entry in entries.items() if key != tag}
-    given = reading.try_read(lambda n, r: r.values(n.place, rest, outside, f"{what} ({tag})"), node)
+    given = reading.try_read(lambda n, r: r.values(n.place, rest, outside, f"{noun} ({tag})"), node)
     key, value = entries[tag]
     within = {} if _is_nothing(value) else reading.try_read(_entries_of(kind, key), value)
     if within is UNREAD:
@@ -345,7 +345,7 @@ def tagged(
 def _tag(
     node: Node,
     reading: Reading,
-    what: str,
+    noun: str,
     kinds: Mapping[str, type],
     common: Mapping[str, Key],
     beside: Mapping[str, Mapping[str, Key]],
@@ -356,11 +356,12 @@ def _tag(
     if len(tags) == 1:
         return tags[0]
     rest = {key: entry for key, entry in entries.items() if key in common}
-    reading.try_read(lambda n, r: r.values(n.place, rest, common, what), node)
+    reading.try_read(lambda n, r: r.values(n.place, rest, common, noun), node)
     if tags:
         second, _ = entries[tags[1]]
         raise reading.refuse(
-            second, f"{what} can have only one subject: write {listed(tags)} as separate items"
+            second,
+            f"{noun} can have only one of these keys: write {listed(tags)} as separate items",
         )
     anywhere = set(common)
     for name, kind in kinds.items():
@@ -368,10 +369,10 @@ def _tag(
         anywhere |= set(beside.get(name, {}))
     strange = [key for name, (key, _) in entries.items() if name not in anywhere]
     if not strange:
-        raise reading.refuse(node, f"{what} needs one of {listed(kinds)}")
+        raise reading.refuse(node, f"{noun} needs one of {listed(kinds)}")
     for key in strange:
         near = suggest(key.text, kinds) or suggest(key.text, anywhere)
-        near = near or f"; {what} is one of {listed(kinds)}"
+        near = near or f"; {noun} is one of {listed(kinds)}"
         reading.note(key, f"unknown key {quoted(key.text)}{near}")
     raise Unreadable
 

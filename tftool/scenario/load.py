@@ -39,14 +39,14 @@ NO_ARGUMENTS: Mapping[str, str] = MappingProxyType({})
 KEPT: Mapping[str, str] = MappingProxyType({"script": "", "expectations": "", "teleop": "teleop"})
 """Names of nodes that a run adds itself, with the kind of node that a scenario may give each to."""
 
-LOOK_EVERY: Duration = seconds(0.1)
+JUDGE_EVERY: Duration = seconds(0.1)
 """Nanoseconds between two judgements of "by" and "during", by default."""
 
 _WHEN = ("at", "by", "during", "always")
 
 _WORD = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 
-MOST_LOOKS = 1_000_000
+MOST_JUDGEMENTS = 1_000_000
 """Most judgements of all expectations of a scenario together."""
 
 
@@ -95,24 +95,24 @@ class _ScenarioReader:
     """Reader of a scenario in one pass; actions, for example, are checked against earlier nodes.
 
     Attributes:
-        given: Arguments from the command line.
+        given_arguments: Arguments from the command line.
         expects: Whether expectations are read.
         duration: Duration of the scenario; None before the duration is read.
         names: Names of the scenario's nodes; None until all nodes are read.
-        looks: Number of judgements in the run, for the expectations read so far.
-        not_a_tree: Positions of nodes whose edges contradict each other (two parents, or a loop).
+        judgements: Number of judgements in the run, for the expectations read so far.
+        not_a_tree: Mistakes of nodes that give a frame two parents, or close a loop.
     """
 
-    def __init__(self, given: Mapping[str, str], expects: bool) -> None:
-        self.given = given
+    def __init__(self, arguments: Mapping[str, str], expects: bool) -> None:
+        self.given_arguments = arguments
         self.expects = expects
         self.duration: Duration | None = None
         self.names: tuple[str, ...] | None = None
-        self.looks = 0
+        self.judgements = 0
         self.not_a_tree: list[Mistake] = []
 
     def scenario(self, root: Node, reading: Reading, name: str) -> Scenario:
-        """Read the whole scenario; parts that other parts are checked against are read first."""
+        """Read the whole scenario, in an order in which each part needs only earlier parts."""
         known = {
             "about": Key(values.text, ""),
             "arguments": Key(self.arguments, NO_ARGUMENTS),
@@ -125,7 +125,7 @@ class _ScenarioReader:
         }
         entries = reading.entries(root, listed(known))
         if "arguments" not in entries:
-            self.check_given({}, reading)
+            self.check_arguments({}, reading)
         if "nodes" not in entries:
             self.names = ()
         found = reading.values(root.place, entries, known, "a scenario")
@@ -149,7 +149,7 @@ class _ScenarioReader:
     # Arguments, which the other parts use.
 
     def arguments(self, node: Node, reading: Reading) -> Mapping[str, str]:
-        """Return the declared arguments, with given values in place of defaults."""
+        """Return the declared arguments with their values: from the command line, else defaults."""
         entries = reading.entries(node, "name: default")
         declared: dict[str, str] = {}
         whole = True
@@ -169,13 +169,13 @@ class _ScenarioReader:
         reading.arguments = {key: text for key, text in declared.items() if text is not UNREAD}
         if not whole:
             raise Unreadable
-        self.check_given(declared, reading)
-        reading.arguments = {**declared, **self.given}
+        self.check_arguments(declared, reading)
+        reading.arguments = {**declared, **self.given_arguments}
         return MappingProxyType(reading.arguments)
 
-    def check_given(self, declared: Mapping[str, str], reading: Reading) -> None:
+    def check_arguments(self, declared: Mapping[str, str], reading: Reading) -> None:
         """Raise UsageError if the user gives an argument that the scenario does not declare."""
-        for name in self.given:
+        for name in self.given_arguments:
             if name not in declared:
                 have = f"; it has {listed(declared)}" if declared else "; it has none"
                 raise UsageError(
@@ -203,7 +203,7 @@ class _ScenarioReader:
 
     def nodes(self, node: Node, reading: Reading) -> tuple[NodeEntry, ...]:
         """Read the scenario's nodes, and give each node a unique name."""
-        items = [self.node(item, reading) for item in reading.items(node, "one node an item")]
+        items = [self.node(item, reading) for item in reading.items(node, "one node per item")]
         counts = Counter(kind for kind, _, _ in items)
         numbers: Counter[str] = Counter()
         found: list[NodeEntry] = []
@@ -233,15 +233,15 @@ class _ScenarioReader:
             self.names = tuple(taken)
         if not whole:
             raise Unreadable
-        self.against_a_tree(reading.items(node, ""), items, reading)
+        self.check_tree(reading.items(node, ""), items, reading)
         return tuple(found)
 
-    def against_a_tree(
-        self, places: Iterable[Node], items: Iterable[tuple[str, str, Any]], reading: Reading
+    def check_tree(
+        self, nodes: Iterable[Node], items: Iterable[tuple[str, str, Any]], reading: Reading
     ) -> None:
-        """Record a mistake for each edge that gives a frame a second parent, or closes a loop."""
+        """Record a mistake for each node that gives a frame a second parent, or closes a loop."""
         parents: dict[str, tuple[str, int]] = {}
-        for item, (kind, _, parameters) in zip(places, items, strict=True):
+        for item, (kind, _, parameters) in zip(nodes, items, strict=True):
             link = None if parameters is UNREAD else link_of(kind, parameters)
             if link is None:
                 continue
@@ -285,7 +285,7 @@ class _ScenarioReader:
             return "", "", UNREAD
         for word, (other, _) in more:
             hint = (
-                f"write '{kind}: {{{word}: ...}}', or indent it further"
+                f"write '{kind}: {{{word}: ...}}', or indent '{word}' further"
                 if word in KINDS[kind].fields or word == "name"
                 else "begin each node with '- '"
             )
@@ -318,7 +318,7 @@ class _ScenarioReader:
     def script(self, node: Node, reading: Reading) -> tuple[Step, ...]:
         """Read the actions of the script."""
         read = [
-            reading.try_read(self.step, item) for item in reading.items(node, "one action an item")
+            reading.try_read(self.step, item) for item in reading.items(node, "one action per item")
         ]
         return tuple(reading.whole(read))
 
@@ -337,12 +337,12 @@ class _ScenarioReader:
         """Read the expectations of the scenario."""
         read = [
             reading.try_read(self.expectation, item)
-            for item in reading.items(node, "one expectation an item")
+            for item in reading.items(node, "one expectation per item")
         ]
         return tuple(one for several in reading.whole(read) for one in several)
 
     def expectation(self, node: Node, reading: Reading) -> tuple[Expectation, ...]:
-        """Read an expectation; return one `Expectation` for each of its conditions of time."""
+        """Read an expectation; return one `Expectation` for each time condition in it."""
         # Imported here, because most commands judge no expectations.
         from tftool.scenario.questions import SUBJECTS
 
@@ -360,13 +360,15 @@ class _ScenarioReader:
             reading.note(
                 node, f"{wrong}; write one of at: 2 s, by: 20 s, during: [1 s, 5 s], always: true"
             )
-        name, question, given = tagged(node, reading, "an expectation", SUBJECTS, common, beside)
-        whens = reading.try_read(lambda _, r: self.whens(node.place, given, r), node)
-        check = SUBJECTS[name].form.make({**vars(question), **given}, reading, node.place)
-        if whens is UNREAD:
+        name, question, values_by_key = tagged(
+            node, reading, "an expectation", SUBJECTS, common, beside
+        )
+        times = reading.try_read(lambda _, r: self.times(node.place, values_by_key, r), node)
+        check = SUBJECTS[name].form.make({**vars(question), **values_by_key}, reading, node.place)
+        if times is UNREAD:
             raise Unreadable
         line = node.place.line + 1
-        return tuple(Expectation(when, question, check, line) for when in whens)
+        return tuple(Expectation(when, question, check, line) for when in times)
 
     def moments(self, node: Node, reading: Reading) -> tuple[Duration, ...]:
         """Read one time or a list of times since the start."""
@@ -374,41 +376,42 @@ class _ScenarioReader:
             found: tuple[Duration, ...] = values.several(self.moment, "moments")(node, reading)
             if not found:
                 raise reading.refuse(
-                    node, "the list of moments is empty: write at least one, such as 2 s"
+                    node, "the list of times is empty: write at least one, such as 2 s"
                 )
             return found
         return (self.moment(node, reading),)
 
-    def whens(
-        self, place: document.TextPlace, given: Mapping[str, Any], reading: Reading
+    def times(
+        self, place: document.TextPlace, values_by_key: Mapping[str, Any], reading: Reading
     ) -> tuple[When, ...]:
         """Read the times at which an expectation is judged."""
-        said = [key for key in _WHEN if given[key] is not None]
+        said = [key for key in _WHEN if values_by_key[key] is not None]
         if len(said) != 1:
             raise Unreadable  # already reported
-        every = LOOK_EVERY if given["every"] is None else given["every"]
+        every = JUDGE_EVERY if values_by_key["every"] is None else values_by_key["every"]
         if said == ["at"]:
-            if given["every"] is not None:
+            if values_by_key["every"] is not None:
                 raise reading.refuse(
                     place, "'every' is only allowed together with 'by', 'during' or 'always'"
                 )
-            return tuple(When("at", at, at, every) for at in given["at"])
+            return tuple(When("at", at, at, every) for at in values_by_key["at"])
         end = self.duration or 0
-        if said == ["always"] and not given["always"]:
+        if said == ["always"] and not values_by_key["always"]:
             raise reading.refuse(place, "'always: false' tests nothing: leave the expectation out")
         first, last = {
-            "by": (0, given["by"]),
-            "during": given["during"],
+            "by": (0, values_by_key["by"]),
+            "during": values_by_key["during"],
             "always": (0, end),
         }[said[0]]
         if first > last:
             raise reading.refuse(
                 place, "the first time of 'during' is after the last time: exchange the two times"
             )
-        self.looks += (last - first) // every
-        if self.looks > MOST_LOOKS:
+        self.judgements += (last - first) // every
+        if self.judgements > MOST_JUDGEMENTS:
             raise reading.refuse(
                 place,
-                f"the scenario makes more than {MOST_LOOKS:,} checks: give 'every' a longer time",
+                f"the scenario makes more than {MOST_JUDGEMENTS:,} checks: give 'every' a longer "
+                "time",
             )
         return (When("by" if said == ["by"] else "during", first, last, every),)

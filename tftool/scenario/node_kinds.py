@@ -143,12 +143,12 @@ class NodeKind:
         return self.make(world, name, **parameters)
 
 
-def _triple(x: float, y: float, last: str, last_value: float) -> Reader:
+def _triple(default_x: float, default_y: float, third_key: str, third_default: float) -> Reader:
     """Return a reader of {x, y, z} or {x, y, theta} as a tuple."""
     known = {
-        "x": Key(values.length, x),
-        "y": Key(values.length, y),
-        last: Key(values.angle if last == "theta" else values.length, last_value),
+        "x": Key(values.length, default_x),
+        "y": Key(values.length, default_y),
+        third_key: Key(values.angle if third_key == "theta" else values.length, third_default),
     }
 
     def read(node: document.Node, reading: Reading) -> tuple[float, ...]:
@@ -232,7 +232,7 @@ KINDS: Mapping[str, NodeKind] = MappingProxyType(
             Turtlesim,
             "holonomic",
             background=_color,
-            turtles=values.several(_turtle, "one turtle an item"),
+            turtles=values.several(_turtle, "one turtle per item"),
         ),
         "broadcaster": NodeKind(Broadcaster, "turtle frame_id", required=["turtle"]),
         "static": NodeKind(_static, "parent child x y z roll pitch yaw"),
@@ -290,9 +290,9 @@ KINDS: Mapping[str, NodeKind] = MappingProxyType(
 
 
 def link_of(kind: str, parameters: Mapping[str, Any]) -> tuple[str, str] | None:
-    """Return parent and child of the single edge that a node with these parameters publishes.
+    """Return (parent, child) of the only transform that a node with these parameters publishes.
 
-    Return None if the node publishes no edge, or if its parameters do not name the edge.
+    Return None if the node publishes no transform, or if no parameters name the two frames.
     """
     if kind in {"broadcaster", "message_broadcaster"}:
         parent, child = parameters["frame_id"], parameters["turtle"]

@@ -232,7 +232,7 @@ class Bearing(Between):
 
 @declare(SUBJECTS, "point", form=POSE_FORM)
 class PointOf(Subject):
-    """Question for the position in frame `target` of a point that is fixed in frame `frame`."""
+    """Question for a point's position in frame `target`; the point is fixed in frame `frame`."""
 
     frame: str = reads(values.frame, key="of")
     target: str = reads(values.frame, key="in")
@@ -417,7 +417,7 @@ class PoseOf(Subject):
     short="text",
 )
 class Logged(Subject):
-    """Question for the number of log messages that contain a text, of any or one node and level."""
+    """Question for the number of log messages with a text, and if given with a node and level."""
 
     text: str = reads(values.text)
     node: str | None = reads(values.name("a node"), None)

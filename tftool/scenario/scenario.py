@@ -115,8 +115,8 @@ class Scenario:
         expect: Expectations.
         doctor: Rules for the doctor, in expectations and in `tftool doctor`.
         source: Text of the scenario, to be read again with other arguments.
-        not_a_tree: Positions of nodes that give a frame two parents, close a loop, or make a frame
-            its own parent. A scenario may do so on purpose, to test the doctor.
+        not_a_tree: Mistakes of nodes that give a frame two parents, close a loop, or make a frame
+            its own parent; a scenario for the doctor may contain them on purpose.
     """
 
     name: str

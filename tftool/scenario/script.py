@@ -40,7 +40,7 @@ class StepFailed(TftoolError):
 
 
 class Script(Node):
-    """Node that carries out a script's actions in order of time, then of position in the file.
+    """Node that carries out a script's actions in order of time, else in the file's order.
 
     An action that fails is logged and recorded, and does not prevent later actions.
 
@@ -102,7 +102,7 @@ class Script(Node):
             ) from None
 
     async def wait_until(self, stamp: Stamp) -> None:
-        """Wait until `stamp`, then until the clock wakes this node in its phase and rank."""
+        """Wait until `stamp`; other nodes may run first within that instant."""
         await self.clock.sleep_until(stamp, self.phase, self.rank)
 
 

@@ -147,13 +147,13 @@ def whole(least: int, most: int) -> Reader:
     return read
 
 
-def name(what: str = "a name") -> Reader:
+def name(noun: str = "a name") -> Reader:
     """Return a reader of names: any printable text that is not blank."""
 
     def read(node: Node, reading: Reading) -> str:
-        value = reading.text(node, what)
+        value = reading.text(node, noun)
         if not value.strip():
-            raise reading.refuse(node, f"expected {what}, not blanks")
+            raise reading.refuse(node, f"expected {noun}, not blanks")
         if not value.isprintable():
             raise reading.refuse(
                 node, f"{quoted(value)} contains characters that cannot be printed"
@@ -208,44 +208,44 @@ def or_none(read_one: Reader) -> Reader:
     return read
 
 
-def choice(choices: Iterable[str], what: str) -> Reader:
-    """Return a reader that accepts one word of `choices`; `what` names the value in messages."""
+def choice(choices: Iterable[str], noun: str) -> Reader:
+    """Return a reader that accepts one word of `choices`; `noun` names the value in messages."""
     known = tuple(choices)
 
     def read(node: Node, reading: Reading) -> str:
-        value = reading.text(node, what)
+        value = reading.text(node, noun)
         if value not in known:
             near = suggest(value, known) or f"; it may be {', '.join(known)}"
-            raise reading.refuse(node, f"{quoted(value)} is not {what}{near}")
+            raise reading.refuse(node, f"{quoted(value)} is not {noun}{near}")
         return value
 
     return read
 
 
-def words(known: Iterable[str], what: str) -> Reader:
+def words(known: Iterable[str], noun: str) -> Reader:
     """Return a reader of one or more words of `known`, separated by blanks."""
     choices = tuple(known)
 
     def read(node: Node, reading: Reading) -> tuple[str, ...]:
-        found = tuple(reading.text(node, what).split())
+        found = tuple(reading.text(node, noun).split())
         if not found:
-            raise reading.refuse(node, f"expected {what}, not blanks")
+            raise reading.refuse(node, f"expected {noun}, not blanks")
         for word in found:
             if word not in choices:
                 near = suggest(word, choices) or f"; it may be {', '.join(choices)}"
-                raise reading.refuse(node, f"{quoted(word)} is not {what}{near}")
+                raise reading.refuse(node, f"{quoted(word)} is not {noun}{near}")
         return found
 
     return read
 
 
-def several(read_one: Reader, what: str, count: int | None = None) -> Reader:
+def several(read_one: Reader, noun: str, count: int | None = None) -> Reader:
     """Return a reader of a list (of `count` items, if given) with `read_one` for each item."""
 
     def read(node: Node, reading: Reading) -> tuple[object, ...]:
-        items = reading.items(node, what)
+        items = reading.items(node, noun)
         if count is not None and len(items) != count:
-            raise reading.refuse(node, f"{what} takes {count} values, not {len(items)}")
+            raise reading.refuse(node, f"{noun} takes {count} values, not {len(items)}")
         found = [reading.try_read(read_one, item) for item in items]
         return tuple(reading.whole(found))
 

@@ -109,15 +109,18 @@ def _marks(package: Package) -> Iterator[InstalledPart]:
         package.data_files is not None and f"resource/{package.name}" not in package.data_files
     )
     fault = (
-        f"ROS 2 finds packages by an empty file 'resource/{package.name}' that setup.py installs "
-        "into share/ament_index/resource_index/packages"
+        "ROS 2 would not find the package: add an empty file "
+        f"'resource/{package.name}', and let setup.py install it into "
+        "share/ament_index/resource_index/packages"
     )
-    yield InstalledPart("the package itself: a mark in setup.py", mark, fault if missing else "")
+    yield InstalledPart(
+        "the package itself: data_files in setup.py", mark, fault if missing else ""
+    )
     config = package.path / "setup.cfg"
     text = read_text(config) if config.is_file() else ""
     fault = (
-        "ros2 run finds executables in lib/"
-        f"{package.name}: write '[install]' and 'install_scripts=$base/lib/{package.name}'"
+        f"ros2 run searches executables in lib/{package.name}: write '[install]' and, below it, "
+        f"'install_scripts=$base/lib/{package.name}' into setup.cfg"
     )
     found = f"lib/{package.name}" in text
     yield InstalledPart(

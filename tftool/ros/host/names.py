@@ -33,8 +33,8 @@ class Fault(NamedTuple):
 def named_twice(name: str) -> str:
     """Return the warning that another process already has a node named `name`."""
     return (
-        f"another process of this session has a node named '{name}': both publish and answer. "
-        "End one, or give this one a name of its own: --ros-args -r __node:=…"
+        f"another process of this session has a node named '{name}' too, and both are used. "
+        "End one of them, or rename this node: --ros-args -r __node:=…"
     )
 
 
@@ -150,7 +150,9 @@ def topic_name_fault(name: str) -> Fault | None:
         return Fault("'~' must come first, with a '/' behind it", name.rindex("~"))
     for found in _SUBSTITUTION.finditer(name):
         if found[1] not in ("node", "ns", "namespace"):
-            return Fault("unknown substitution: not {node}, {ns} or {namespace}", found.start())
+            return Fault(
+                "unknown substitution: only {node}, {ns} and {namespace} exist", found.start()
+            )
     plain = _SUBSTITUTION.sub(lambda found: "_" * len(found[0]), name)
     if brace := re.search(r"[{}]", plain):
         return Fault("a brace is not closed or not opened", brace.start())

@@ -371,9 +371,9 @@ class RegisterEventHandler(Action):
         handler = self.event_handler
         if isinstance(handler, OnExecutionComplete) and getattr(handler.target, "is_begun", False):
             context.launch.warn(
-                "this OnExecutionComplete is never called, as in ROS 2: its "
-                f"{_kind(handler.target)} was executed before. Register the handler above its "
-                "target_action"
+                "this OnExecutionComplete is never called, as in ROS 2: its target_action, of "
+                f"type {_kind(handler.target)}, was executed earlier. Register the handler before "
+                "that action"
             )
 
 

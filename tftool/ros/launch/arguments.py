@@ -119,7 +119,7 @@ def find_launch_file(workspace: Workspace, words: Sequence[str]) -> tuple[Path, 
     folder = workspace.share(first)
     if not rest or ":=" in rest[0]:
         raise UsageError(
-            f"no launch file of package '{first}' is named: add its name. {_listed(folder)}"
+            f"write the name of a launch file after package '{first}'. {_listed(folder)}"
         )
     for below in ("launch", "."):
         path = folder / below / rest[0]

@@ -117,7 +117,7 @@ class LoadComposableNodes(Action):
                 return
             plugins = ", ".join(request.plugin_name for request in requests)
             context.launch.warn(
-                f"left out: {plugins}: tftool cannot run components, which are C++ libraries, "
+                f"not loaded: {plugins}: tftool cannot run components, which are C++ libraries, "
                 f"and no container '{container}' runs in this session"
             )
 
@@ -154,7 +154,7 @@ class ComposableNodeContainer(Node):
         self._perform_substitutions(context)
         reason = self._missing(context)
         if reason:
-            context.launch.warn(f"left out: the container {self.node_name}: {reason}")
+            context.launch.warn(f"not started: the container {self.node_name}: {reason}")
         else:
             super().execute(context)
         if not self.composable_node_descriptions:

@@ -76,7 +76,7 @@ class Element:
                 raise self.error(f"'{self.tag}' has no attribute '{name}'", name, self.read_names)
         for child in self.children:
             if child.tag not in self.read_tags:
-                sentence = f"'{self.tag}' has no '{child.tag}' inside"
+                sentence = f"'{self.tag}' cannot contain '{child.tag}'"
                 raise child.error(sentence, child.tag, self.read_tags)
 
     def depth_error(self) -> InputError:

@@ -408,7 +408,7 @@ class Launch(Node):
                 )
             except executables.HasItsOwnCommand as error:
                 # The launch goes on without this program.
-                self.warn(f"left out: {error}")
+                self.warn(f"not started: {error}")
                 return
             if isinstance(node, Program):
                 node.on_print = partial(self._printed, label)

@@ -310,7 +310,8 @@ class EventQueue:
                 count += 1
                 if count > MOST_EVENTS:
                     raise UsageError(
-                        "event handlers trigger each other without end: give each a target_action"
+                        "event handlers trigger each other without end: give each handler a "
+                        "target_action"
                     )
                 self._handle(self._waiting.popleft())
         finally:

@@ -351,7 +351,7 @@ class FileContent(Substitution):
         try:
             return read_named_text(Path(path))
         except (OSError, UnicodeDecodeError) as error:
-            reason = getattr(error, "strerror", None) or "it is no UTF-8 text"
+            reason = getattr(error, "strerror", None) or "it is not UTF-8 text"
             raise SubstitutionFailure(f"cannot read '{path}': {reason}") from None
 
 
@@ -392,7 +392,7 @@ def _expanded(words: list[str]) -> str:
     files = [word for word in rest if ":=" not in word and not word.startswith("-")]
     options = [word for word in rest if word.startswith("-")]
     if len(files) != 1 or options:
-        raise SubstitutionFailure(f"xacro needs one file and NAME:=VALUE here, not {rest}")
+        raise SubstitutionFailure(f"xacro needs one file, then arguments NAME:=VALUE, not {rest}")
     arguments = dict(word.split(":=", 1) for word in rest if ":=" in word)
     try:
         return expand_xacro(files[0], arguments)

@@ -192,7 +192,7 @@ def as_function(test: Any, *, after_end: bool, after_yield: bool = False) -> Cal
         service = given["launch_service"] if wants_service else given.pop("launch_service")
         if after_yield:
             if (generator := service.waiting.pop(test, None)) is None:
-                pytest.skip("the part before its yield has failed")
+                pytest.skip("the part of this test before its yield has failed")
             service.finish()
             _end(generator, test)
             return

@@ -77,8 +77,8 @@ class NodeSeat:
             self.program.say(
                 "WARN",
                 name,
-                f"a node named '{wanted}' exists already; this one is shown as '{name}'. "
-                f"Give it a name of its own: --ros-args -r __node:=…",
+                f"a node named '{wanted}' exists already; this node is shown as '{name}'. "
+                "Rename this node: --ros-args -r __node:=…",
             )
         elif name in self.world.far_nodes and not is_tool:
             self.program.say("WARN", name, names.named_twice(name))

@@ -107,13 +107,13 @@ class LookupHints:
         return early >= 3 and 5 * early >= self._asked
 
     def _early_text(self) -> str:
-        told = f"{self._early} of {self._asked} lookups were for a time newer than the transforms"
+        text = f"{self._early} of {self._asked} lookups asked for a time newer than the transforms"
         if self._just_in_time:
-            told += (
-                f", {self._just_in_time} for exactly the stamp of a transform, which arrives later "
-                "outside simulated time"
+            text += (
+                f". {self._just_in_time} lookups asked for exactly the stamp of a transform; on a "
+                "real robot that transform arrives too late"
             )
-        return f"{told}: use Time(), the latest, or a timeout"
+        return f"{text}: look up Time(), the latest time, or give a timeout"
 
     def _sent_once(self, target: str, source: str, now: Stamp) -> Iterator[FrameInfo]:
         """Yield `target`, `source` and their ancestors whose only transform was sent long ago."""
