@@ -78,13 +78,13 @@ class Shortened(NamedTuple):
     kept: int
 
 
-def _share(sizes: list[int], room: int) -> int:
-    """Return the most samples per frame, at least 2, for at most `room` samples in total."""
+def _most_per_frame(sizes: list[int], limit: int) -> int:
+    """Return the most samples per frame, at least 2, for at most `limit` samples in total."""
     left = len(sizes)
     for size in sorted(sizes):
-        if size * left > room:
-            return max(2, room // left)
-        room -= size
+        if size * left > limit:
+            return max(2, limit // left)
+        limit -= size
         left -= 1
     return max(sizes)
 
@@ -218,7 +218,7 @@ class Buffer(Door):
         return self._set_slowly(transform, authority, True)
 
     def _set_slowly(self, transform: TransformStamped, authority: str, static: bool) -> bool:
-        """Insert a sample that is unusual, static or of a new child, with all checks."""
+        """Insert a sample with all checks: a static sample, or one that the fast path refused."""
         stamp, parent, child, pose = _parts(transform)
         stamp = whole(stamp)
         parent, child = tree.stripped(parent), tree.stripped(child)
@@ -369,7 +369,7 @@ class Buffer(Door):
         room = limit // RECORD
         if sum(sizes) <= room:
             return []
-        most = _share(sizes, room - room // 4)
+        most = _most_per_frame(sizes, room - room // 4)
         cut = []
         for (frame, link), size in zip(links, sizes, strict=True):
             if size > most:
@@ -438,7 +438,7 @@ class Buffer(Door):
             moment = time or path.latest()
             pose = path.solve(moment)
         if pose is None:
-            moment, path, kept = self._solver.way(target_frame, source_frame, time)
+            moment, path, kept = self._solver.find_path(target_frame, source_frame, time)
             if kept and not known:
                 # The path is cached now, and with it the native kernel takes half the time.
                 return Buffer.lookup_transform(self, target_frame, source_frame, moment)
@@ -778,9 +778,9 @@ class Buffer(Door):
         return {self._tree.frames[one].name for one in above}
 
     def rivals(self, frame: str) -> tuple[str, ...]:
-        """Return the publishers that alternately publish a frame; empty for a single publisher.
+        """Return the publishers that publish a frame in turns; empty for a single publisher.
 
-        A publisher that replaced another publisher once does not count as a rival.
+        The result is also empty if one publisher replaced another publisher only once.
         """
         frame = tree.plain(frame)
         number = self._tree.numbers.get(frame)
@@ -849,7 +849,7 @@ def adopt_records(
     child: str,
     records: "npt.NDArray[np.int64]",
     authority: str = "",
-    kept: int = 0,
+    checked: int = 0,
 ) -> bool:
     """Insert records as `Buffer.set_records` does, if their stamps increase.
 
@@ -859,7 +859,7 @@ def adopt_records(
         child: As in `Buffer.set_records`.
         records: As in `Buffer.set_records`.
         authority: As in `Buffer.set_records`.
-        kept: Number of records at the beginning that need no check: their stamps increase, they are
+        checked: Number of leading records that need no check: their stamps increase, they are
             finite, and their quaternions have unit length and tf2's sign.
 
     Returns:
@@ -872,7 +872,7 @@ def adopt_records(
 
     known = len(buffer._tree.frames)
     if buffer._listening or not insert.adopt(
-        buffer._tree, buffer.max_frames, (parent, child, authority), records, kept
+        buffer._tree, buffer.max_frames, (parent, child, authority), records, checked
     ):
         return False
     buffer._solver.drop_paths()

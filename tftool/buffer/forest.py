@@ -138,7 +138,7 @@ class Walk:
         self.above: list[int] = []
 
     def close(self, ended: int) -> "Walk":
-        """Finish the search with the outcome `ended`; remove frames above the common ancestor."""
+        """Finish the search with an outcome; move frames above the common ancestor to `above`."""
         self.ended = ended
         if ended == ARRIVED:
             up, down = self.up, self.down

@@ -487,7 +487,7 @@ class History(Fields):
         return PARENT_CHANGED
 
     def _note_origins(self, count: int) -> "array[int]":
-        """Return the array of origins; create a missing array with `count` equal entries."""
+        """Return the array `origins`; if it is None, create it with `count` equal entries."""
         origins = self.origins
         if origins is None:
             origins = self.origins = array("q", [self.origin]) * count

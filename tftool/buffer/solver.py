@@ -245,13 +245,13 @@ class Solver:
         Raises:
             TransformException: As in `Buffer.lookup_transform`.
         """
-        time, path, _ = self.way(target, source, time)
+        time, path, _ = self.find_path(target, source, time)
         pose = path.solve(time)
         assert pose is not None, "a link with a parent at a time has a pose at that time"
         return time, (*pose.translation, *pose.rotation)
 
-    def way(self, target: str, source: str, time: Stamp) -> tuple[Stamp, Path, bool]:
-        """Find the path from source to target at a time; 0 means the latest common time.
+    def find_path(self, target: str, source: str, time: Stamp) -> tuple[Stamp, Path, bool]:
+        """Return the path from source to target at a time; 0 means the latest common time.
 
         Returns:
             The time of the lookup, the path, and whether the path is now in the cache.
@@ -314,7 +314,7 @@ class Solver:
         """Return the frame names from source to target, inclusive; [] if both names are equal."""
         if target == source:
             return []
-        time, _, _ = self.way(target, source, time)
+        time, _, _ = self.find_path(target, source, time)
         trees = self._tree
         walk = trees.walk(trees.numbers[target], trees.numbers[source], time)
         # The two sides meet in the parent of the last link of each side.

@@ -127,7 +127,7 @@ class Series:
 
 
 class FrameTraffic:
-    """Arrival times and delays of the recent messages about one frame.
+    """Recent messages about one frame: sender, arrival times and delays.
 
     Attributes:
         frame: Name of the frame.

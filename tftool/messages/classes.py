@@ -213,15 +213,15 @@ def completed(message: Any, kind: type[Message]) -> Any:
     return made
 
 
-def is_part(asked: Any, part: str, kind: Any) -> bool:
+def is_part(message: Any, part: str, kind: Any) -> bool:
     """Whether a message is a request of a given service, or a goal of a given action.
 
     Args:
-        asked: The message.
+        message: The message.
         part: "Request" or "Goal".
         kind: The class of the service or action.
     """
-    return isinstance(asked, Message) and plain_name(asked.interface__) == plain_name(
+    return isinstance(message, Message) and plain_name(message.interface__) == plain_name(
         f"{kind.interface__}_{part}"
     )
 

@@ -116,9 +116,9 @@ class ActionParts:
         for goal, _ in self._goals.values():
             goal.cancel()
 
-    async def send_goal(self, asked: Any) -> Any:
+    async def send_goal(self, request: Any) -> Any:
         """Handle a SendGoal request; return the response when the action's server has decided."""
-        goal_id = bytes(asked.goal_id.uuid)
+        goal_id = bytes(request.goal_id.uuid)
         now = self._world.clock.now()
         is_new = goal_id not in self._goals and goal_id not in self._undecided
         accepted = is_new and self._has_room()
@@ -126,32 +126,32 @@ class ActionParts:
             # Deciding takes a while, during which a client may send the same goal again.
             self._undecided.add(goal_id)
             try:
-                goal = self._world.send_goal(self._name, asked.goal, goal_id=goal_id)
-                accepted = await self._enters(goal)
+                goal = self._world.send_goal(self._name, request.goal, goal_id=goal_id)
+                accepted = await self._await_decision(goal)
             finally:
                 self._undecided.discard(goal_id)
         return message(f"{self._type}_SendGoal_Response", accepted=accepted, stamp=_time(now))
 
     def _has_room(self) -> bool:
         """Return whether there is room for one more goal; ended goals are dropped first."""
-        if self._make_way(len(self._undecided)) <= 0:
+        if self._drop_ended(len(self._undecided)) <= 0:
             return True
         self._warn(
             f"'{self._name}': {KEPT} goals run, the most allowed: more are refused until one ends."
         )
         return False
 
-    def _make_way(self, others: int) -> int:
-        """Drop ended goals, to make room for one more goal.
+    def _drop_ended(self, undecided: int) -> int:
+        """Drop ended goals until one more goal is within the limit.
 
         Args:
-            others: Number of goals on which the action's server has not decided yet.
+            undecided: Number of goals on which the action's server has not decided yet.
 
         Returns:
             Number of goals above the limit, counting the new goal; not positive if the new goal
             fits.
         """
-        surplus = len(self._goals) + others + 1 - KEPT
+        surplus = len(self._goals) + undecided + 1 - KEPT
         ended = [goal_id for goal_id, (goal, _) in self._goals.items() if goal.done]
         for goal_id in ended[: max(0, surplus)]:
             del self._goals[goal_id]
@@ -172,11 +172,11 @@ class ActionParts:
         self._tasks.start(self._see_through(goal))
 
     async def _see_through(self, goal: GoalHandle) -> None:
-        if await self._enters(goal):
+        if await self._await_decision(goal):
             await goal.result()
             self._publish_status()
 
-    async def _enters(self, goal: GoalHandle) -> bool:
+    async def _await_decision(self, goal: GoalHandle) -> bool:
         """Wait until the action's server decides on a goal; track an accepted goal.
 
         Returns:
@@ -185,14 +185,14 @@ class ActionParts:
         if goal.decided is not None and not await asyncio.shield(goal.decided):
             return False
         if goal.goal_id not in self._goals:
-            self._make_way(0)
+            self._drop_ended(0)
             self._goals[goal.goal_id] = goal, self._world.clock.now()
             self._publish_status()
         return True
 
-    async def cancel_goal(self, asked: Any) -> Any:
+    async def cancel_goal(self, request: Any) -> Any:
         """Handle a CancelGoal request for one goal or all goals; return the response."""
-        goal_id = bytes(asked.goal_info.goal_id.uuid)
+        goal_id = bytes(request.goal_info.goal_id.uuid)
         every = goal_id == _EVERY_GOAL
         chosen = [
             (each, *self._goals[each])
@@ -216,9 +216,9 @@ class ActionParts:
             code = _ENDED if chosen else _UNKNOWN_GOAL
         return message(f"{CANCEL_GOAL}_Response", return_code=code, goals_canceling=canceled)
 
-    async def get_result(self, asked: Any) -> Any:
+    async def get_result(self, request: Any) -> Any:
         """Handle a GetResult request: wait until the goal has ended; return the response."""
-        goal, _ = self._goals.get(bytes(asked.goal_id.uuid), (None, 0))
+        goal, _ = self._goals.get(bytes(request.goal_id.uuid), (None, 0))
         answer = f"{self._type}_GetResult_Response"
         if goal is None:
             return message(answer)

@@ -423,16 +423,16 @@ class FollowedClock(WallClock):
         fell_back: Functions called with the nanoseconds by which time has fallen back.
     """
 
-    def __init__(self, told: Stamp | None = None, *, epoch: Stamp | None = None) -> None:
-        """Create a clock that shows real time, or the fixed time `told` until another time is set.
+    def __init__(self, fixed_time: Stamp | None = None, *, epoch: Stamp | None = None) -> None:
+        """Create a clock that shows real time, or a fixed time until another time is set.
 
         Args:
-            told: Fixed time in nanoseconds; None for real time.
-            epoch: Time at which the clock began; None for `told` if given, else the present.
+            fixed_time: Fixed time in nanoseconds; None for real time.
+            epoch: Time at which the clock began; None for `fixed_time` if given, else the present.
         """
-        super().__init__(epoch=told if epoch is None else epoch)
+        super().__init__(epoch=fixed_time if epoch is None else epoch)
         self.fell_back: Listeners[Duration] = Listeners()
-        self._told = told
+        self._told = fixed_time
         self._first: asyncio.Future[None] | None = None
 
     @property
@@ -465,7 +465,7 @@ class FollowedClock(WallClock):
         if change < 0 and not is_first:
             self.fell_back.call(-change)
 
-    async def told_once(self, patience: Duration) -> None:
+    async def wait_until_told(self, patience: Duration) -> None:
         """Wait until `tell` has set a time, at most `patience` nanoseconds of real time."""
         first = self._first = asyncio.get_running_loop().create_future()
         if self.is_told:
@@ -627,7 +627,7 @@ class VirtualLoop(asyncio.SelectorEventLoop):
         return self.clock.now() / NANOSECONDS
 
     def is_forsaken(self) -> bool:
-        """Return whether no file, thread or real timer can wake this loop any more."""
+        """Return whether nothing can wake this loop any more: no file, thread or real timer."""
         selector: Any = getattr(self, "_selector", None)
         # One file is always registered: the loop's own wake-up pipe.
         files = 0 if selector is None else len(selector.get_map())

@@ -689,12 +689,12 @@ def _nothing() -> None:
     """Do nothing, in place of a function that removes an endpoint."""
 
 
-def _require(asked: Any, part: str, kind: Any, what: str) -> None:
+def _require(message: Any, part: str, kind: Any, what: str) -> None:
     """Check that a service's request or an action's goal is of the right type.
 
     Raises:
         TftoolError: If the request or goal is of another type.
     """
-    if not is_part(asked, part, kind):
-        given = getattr(asked, "interface__", "") or type(asked).__name__
+    if not is_part(message, part, kind):
+        given = getattr(message, "interface__", "") or type(message).__name__
         raise TftoolError(f"{what} is of type {kind.interface__}, which takes no {given}")

@@ -45,7 +45,7 @@ _WXYZ = [6, 3, 4, 5]
 
 
 class Intervals:
-    """Intervals between neighbouring samples of one edge, with precomputed numbers to interpolate
+    """Intervals between neighbouring samples of one frame, with precomputed numbers to interpolate
     its poses.
 
     At the fraction f of an interval the position is P + f·D, and the rotation is computed as in
@@ -354,8 +354,8 @@ class BlockArrays:
         self,
         intervals: Intervals,
         index: Indices,
-        share: Floats,
-        ratio: Floats,
+        fraction: Floats,
+        turn_factor: Floats,
         place: VectorRows,
         turn: QuaternionRows,
     ) -> None:
@@ -363,15 +363,15 @@ class BlockArrays:
         some, more = self._some, self._more
         intervals.fetch(intervals.places, index, some)
         intervals.fetch(intervals.paths, index, more)
-        multiply(share, more.T[:3], place.xyz)
+        multiply(fraction, more.T[:3], place.xyz)
         add(place.xyz, some.T[:3], place.xyz)
         if intervals.endless:
             # Interpolation with infinity gives NaN, but at its own stamp a sample is valid.
-            met = np.flatnonzero(share == 0.0)
+            met = np.flatnonzero(fraction == 0.0)
             place.xyz[:, met] = some[met, :3].T
         intervals.fetch(intervals.starts, index, some)
         intervals.fetch(intervals.directions, index, more)
-        multiply(ratio, more.T, turn.wxyz)
+        multiply(turn_factor, more.T, turn.wxyz)
         add(turn.wxyz, some.T, turn.wxyz)
         turn.close()
 
@@ -418,7 +418,7 @@ class BlockArrays:
         return square
 
     def _lead(self, turn: QuaternionRows) -> Floats:
-        """Return the component of each quaternion that `quaternions.canonical` makes positive."""
+        """Return the component of each quaternion that must be positive in tf2's convention."""
         small, large, size = self._ratios[0], self._flags, self._spare
         lead: Floats = self._shares[0]
         multiply(turn.w, turn.w, small)

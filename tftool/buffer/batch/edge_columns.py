@@ -1,4 +1,4 @@
-"""Columns of an edge's samples in numpy, and the search for times among its stamps."""
+"""Samples of a frame as columns in numpy, and the search for times among their stamps."""
 
 import numpy as np
 import numpy.typing as npt
@@ -107,7 +107,7 @@ class Columns:
 
 
 def samples(tree: FrameTree, frame: Frame) -> SampleColumns:
-    """Return all samples of one frame's edge; see `Buffer.samples`."""
+    """Return all samples of one frame; see `Buffer.samples`."""
     link = frame.link
     is_static = link is not None and link.is_static
     stamps: Stamps = np.zeros(0, dtype=np.int64)
@@ -241,7 +241,10 @@ def find_sorted(stamps: Stamps, times: Stamps, index: Indices) -> None:
 
 
 def settle_oldest(column: Column, times: Stamps, index: Indices) -> None:
-    """Correct `index` for times equal to the oldest stamp: tf2 uses the first inserted sample."""
+    """Correct `index` for times equal to the oldest stamp, as in tf2.
+
+    Of several samples with the oldest stamp, tf2 uses the sample that was inserted first.
+    """
     stamps = column.stamps
     if len(stamps) > 2 and stamps[0] == stamps[1] and stamps[0] != stamps[-1]:
         index[times == stamps[0]] = 0

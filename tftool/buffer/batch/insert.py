@@ -76,7 +76,7 @@ class CheckedRows:
         stamps: npt.ArrayLike,
         translations: npt.ArrayLike,
         rotations: npt.ArrayLike,
-        rest: tuple[str, str, str],
+        names: tuple[str, str, str],
     ) -> None:
         """Check the rows of a bulk insertion.
 
@@ -84,7 +84,7 @@ class CheckedRows:
             stamps: Whole nanoseconds, shape (n,).
             translations: Metres, shape (n, 3).
             rotations: Quaternions in xyzw order, shape (n, 4).
-            rest: Child frame, parent frame and authority (name of the sender).
+            names: Names of child frame, parent frame and sender.
         """
         self.stamps = stamps_of(stamps, "stamps")
         n = len(self.stamps)
@@ -92,9 +92,9 @@ class CheckedRows:
         self.samples[:, :3] = _shaped(translations, "translations", (n, 3))
         turns = batch.unit(_shaped(rotations, "rotations", (n, 4)))
         self.samples[:, 3:] = batch.canonical(turns)
-        self._rest = rest
+        self._names = names
         every = np.ones(n, dtype=np.bool_)
-        whole = self._rest[:2]
+        whole = self._names[:2]
         codes = refusals.objections(*whole, 0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0), "")
         # Names are checked once, by the rules for single samples; array tests check the rows.
         self.reasons = {
@@ -112,7 +112,7 @@ class CheckedRows:
 
     def lines(self, row: int) -> list[str]:
         """Return the log lines that explain why a row is rejected."""
-        child, parent, authority = self._rest
+        child, parent, authority = self._names
         x, y, z, qx, qy, qz, qw = self.samples[row].tolist()
         stamp = int(self.stamps[row])
         return refusals.objections(child, parent, stamp, (x, y, z), (qx, qy, qz, qw), authority)
@@ -191,7 +191,7 @@ def adopt(
     max_frames: int,
     link: tuple[str, str, str],
     records: npt.NDArray[np.int64],
-    kept: int = 0,
+    checked: int = 0,
 ) -> bool:
     """Insert samples of a new child frame without copying them: the tree uses the array `records`.
 
@@ -200,7 +200,7 @@ def adopt(
         max_frames: Maximum number of frame names in the tree.
         link: Parent frame, child frame and authority (name of the sender).
         records: Samples in the memory layout of `History`, shape (n, 8): stamps and seven doubles.
-        kept: Number of records at the beginning that need no check: their stamps increase and their
+        checked: Number of leading records that need no check: their stamps increase and their
             quaternions have unit length and tf2's sign.
 
     Returns:
@@ -229,8 +229,8 @@ def adopt(
     if int(records[-1, 0]) - int(records[0, 0]) > tree.limit:
         return False
     # Borrowed, not copied: a recording of a million rows is inserted in microseconds.
-    lent = words = _lent(records)
-    for begin in range(kept, len(records), _BLOCK):
+    lent = words = _flat_words(records)
+    for begin in range(checked, len(records), _BLOCK):
         # Begin one row earlier to compare stamps; both checks read rows in the cache.
         stamps = records[max(begin - 1, 0) : begin + _BLOCK, 0]
         samples = records[begin : begin + _BLOCK].view(np.float64)[:, 1:]
@@ -255,7 +255,7 @@ def adopt(
     return True
 
 
-def _lent(records: npt.NDArray[np.int64]) -> "array[int] | memoryview[int]":
+def _flat_words(records: npt.NDArray[np.int64]) -> "array[int] | memoryview[int]":
     """Return the records as a flat array of 64-bit words: a view if contiguous, else a copy."""
     if not records.flags.c_contiguous:
         return _words(records)
@@ -263,7 +263,7 @@ def _lent(records: npt.NDArray[np.int64]) -> "array[int] | memoryview[int]":
 
 
 def _is_canonical(turns: Floats) -> bool:
-    """Whether all quaternions have unit length and tf2's sign."""
+    """Whether all quaternions have unit length and the sign that tf2 computes."""
     x, y, z, w = np.moveaxis(turns, -1, 0)
     # Add in the order of the scalar code, so that the last bit is the same.
     with np.errstate(over="ignore", under="ignore"):
@@ -318,7 +318,7 @@ def merge(history: History, origin: int, stamps: Stamps, samples: Floats) -> Fla
 def _first_of_their_kind(
     stamps: Stamps, samples: Floats, parents: npt.NDArray[np.int64], order: Indices
 ) -> Flags:
-    """Return a mask over `order`: false for a repeated sample with equal stamp, parent and pose."""
+    """Return a mask of the rows `order`: False for a copy of a row with the same stamp."""
     # tf2 ignores a sample equal to a stored one with its stamp: check runs of equal stamps only.
     keep = np.ones(len(order), dtype=np.bool_)
     ordered = stamps[order]

@@ -238,25 +238,25 @@ def _refusal(tf2_text: str, remedy: str) -> UsageError:
     return UsageError(f"error parsing command line arguments: {tf2_text}. {remedy}")
 
 
-def advice(said: StaticArguments) -> list[str]:
+def advice(arguments: StaticArguments) -> list[str]:
     """Return a sentence for each probable mistake in the arguments."""
     sentences = []
-    if said.old_style:
+    if arguments.old_style:
         sentences.append("Old-style arguments are deprecated; see --help for new-style arguments.")
-    roll, pitch, yaw = said.angles
-    if said.old_style and roll and not pitch and not yaw:
-        numbers = " ".join(f"{number:g}" for number in said.transform.translation)
+    roll, pitch, yaw = arguments.angles
+    if arguments.old_style and roll and not pitch and not yaw:
+        numbers = " ".join(f"{number:g}" for number in arguments.transform.translation)
         sentences.append(
             f"The sixth number is roll: {roll:g} turns about the x axis. To turn about z, "
-            f"put it fourth: {numbers} {roll:g} 0 0 {said.parent} {said.child}"
+            f"put it fourth: {numbers} {roll:g} 0 0 {arguments.parent} {arguments.child}"
         )
-    beyond = [angle for angle in said.angles if abs(angle) > 2.0 * math.pi]
+    beyond = [angle for angle in arguments.angles if abs(angle) > 2.0 * math.pi]
     if beyond:
         sentences.append(
             f"Angles are radians, and {beyond[0]:g} is more than a full turn; "
             f"{beyond[0]:g} degrees would be {math.radians(beyond[0]):.6g}."
         )
-    length = math.hypot(*said.transform.rotation)
-    if said.rotation == "quaternion" and abs(length - 1.0) > 0.01:
+    length = math.hypot(*arguments.transform.rotation)
+    if arguments.rotation == "quaternion" and abs(length - 1.0) > 0.01:
         sentences.append(f"The quaternion has length {length:.4g}, not 1; receivers scale it.")
     return sentences

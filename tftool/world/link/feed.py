@@ -56,7 +56,7 @@ class TopicFeed:
             if topic.transforms or topic.name.strip("/") == "clock":
                 continue
             try:
-                ros_type, convert = _way_out(topic)
+                ros_type, convert = _type_and_conversion(topic)
             except (InputError, MalformedMessage) as error:
                 self.left_out.append(f"'{topic.name}' is not sent: {error}")
                 continue
@@ -135,7 +135,7 @@ class TopicFeed:
         sender.put(payload, self._link.now())
 
 
-def _way_out(topic: RecordedTopic) -> tuple[str, Callable[[bytes], bytes] | None]:
+def _type_and_conversion(topic: RecordedTopic) -> tuple[str, Callable[[bytes], bytes] | None]:
     """Return the ROS 2 type of a recorded topic, and a function that converts messages to CDR.
 
     The function is None if the recorded messages are in CDR already.

@@ -79,8 +79,8 @@ class WireClient(Protocol):
 class Watcher(Protocol):
     """Callbacks from a middleware to the session connection."""
 
-    def graph_changed(self, found: GraphEntity | Process | None, there: bool) -> None:
-        """Handle an entity that was added (if `there`) or removed.
+    def graph_changed(self, found: GraphEntity | Process | None, is_added: bool) -> None:
+        """Handle an entity that was added (if `is_added`) or removed.
 
         `found` is None if the change is only that another ROS domain was noticed.
         """
@@ -199,13 +199,13 @@ class Middleware:
 
     # For middlewares: reports to the watcher, if there is one yet
 
-    def report(self, found: GraphEntity | Process | None, there: bool) -> None:
-        """Report to the watcher that an entity was added (if `there`) or removed.
+    def report(self, found: GraphEntity | Process | None, is_added: bool) -> None:
+        """Report to the watcher that an entity was added (if `is_added`) or removed.
 
         `found` is None if the change is only that another ROS domain was noticed.
         """
         if self.watcher is not None:
-            self.watcher.graph_changed(found, there)
+            self.watcher.graph_changed(found, is_added)
 
     def refuse(self, name: str, refusal: MalformedMessage) -> None:
         """Report a malformed message of a topic or service to the watcher."""

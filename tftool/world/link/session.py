@@ -318,17 +318,17 @@ class Link(LinkContext):
 
     # Changes of other processes
 
-    def graph_changed(self, found: GraphEntity | Process | None, there: bool) -> None:
-        """Handle an entity that was added (if `there`) or removed.
+    def graph_changed(self, found: GraphEntity | Process | None, is_added: bool) -> None:
+        """Handle an entity that was added (if `is_added`) or removed.
 
         `found` is None if the change is only that another ROS domain was noticed.
         """
         if found is None:
             self._mention_foreign_domains()
         elif isinstance(found, Process):
-            (self._came if there else self._left)(found)
+            (self._came if is_added else self._left)(found)
         else:
-            if not there and found.kind == PUBLISHER and found.name == "tf":
+            if not is_added and found.kind == PUBLISHER and found.name == "tf":
                 self._count_departure(found.session)
             self._match_soon()
 

@@ -123,7 +123,7 @@ class Session:
             await clock.sleep_until(clock.epoch + self.head_start, Phase.WATCH)
         link = self.link
         if isinstance(clock, FollowedClock) and link is not None and is_clock_shown(link.graph):
-            await clock.told_once(TOLD)
+            await clock.wait_until_told(TOLD)
         return await work
 
 

@@ -94,12 +94,16 @@ class TopicBridge:
 
     # Incoming messages
 
-    def _subscribe(self, stated: Endpoint | None) -> Callable[[], None]:
-        """Announce a subscription; if latched, request earlier messages. Return a stop function."""
+    def _subscribe(self, declared: Endpoint | None) -> Callable[[], None]:
+        """Announce a subscription of a node, or of the main node if `declared` is None.
+
+        A latched subscription also requests earlier messages. Return a function that ends the
+        subscription.
+        """
         link, name, ros_type = self._link, self._topic.name, self._type
-        node = link.main_node if stated is None else stated.node
-        quality = USUAL if stated is None else stated.quality
-        deliver = None if stated is None else stated.deliver
+        node = link.main_node if declared is None else declared.node
+        quality = USUAL if declared is None else declared.quality
+        deliver = None if declared is None else declared.deliver
         if deliver is None:
             return link.middleware.subscription(node, name, ros_type, quality)
         hand_over = deliver
@@ -271,7 +275,7 @@ class TransformBridge:
                 self._inbound = None
 
     def _takes_paths(self, payload: bytes, authority: str) -> bool:
-        """Insert a large message's transforms as one array per edge; return False if not inserted.
+        """Insert a large message's transforms as one array per child; return False if not inserted.
 
         Raises:
             MalformedMessage: If the bytes are not transforms.

@@ -231,8 +231,8 @@ class Player(Node):
     def _send_known(self, moment: Stamp) -> None:
         """Send the transforms that lookups at the time `moment` need.
 
-        The last transform of each edge would not be enough: the last stamps of two edges differ,
-        and a lookup over both edges needs samples before and after a common time.
+        The last transform of each frame would not be enough: the last stamps of two frames differ,
+        and a lookup between the frames needs samples before and after a common time.
         """
         last = self._timeline.place(moment, after=True)
         first = last

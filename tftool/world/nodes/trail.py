@@ -215,17 +215,20 @@ class FarDrawing:
         """Return a request for the strokes that have not been received yet."""
         return KIND.Request(began=self._began, wipes=self._wipes, drawn=self._drawn)
 
-    def take(self, told: Any) -> bool:
-        """Draw the strokes of a response (`told`); return whether the trail has changed."""
-        is_new = (told.began, told.wipes) != (self._began, self._wipes) or told.first < self._drawn
+    def take(self, response: Any) -> bool:
+        """Draw the strokes in a response; return whether the trail has changed."""
+        is_new = (response.began, response.wipes) != (
+            self._began,
+            self._wipes,
+        ) or response.first < self._drawn
         if is_new:
             self._trail.wipe()
-            self._began, self._wipes = told.began, told.wipes
-        strokes = min(len(told.ends) // 4, len(told.pens) // 4)
+            self._began, self._wipes = response.began, response.wipes
+        strokes = min(len(response.ends) // 4, len(response.pens) // 4)
         for one in range(0, 4 * strokes, 4):
-            r, g, b, width = told.pens[one : one + 4]
-            x0, y0, x1, y1 = told.ends[one : one + 4]
+            r, g, b, width = response.pens[one : one + 4]
+            x0, y0, x1, y1 = response.ends[one : one + 4]
             self._trail.draw(Segment(x0, y0, x1, y1, Color(r, g, b), width))
-        self._drawn = told.first + strokes
-        self.is_whole = self._drawn >= told.drawn or not strokes
+        self._drawn = response.first + strokes
+        self.is_whole = self._drawn >= response.drawn or not strokes
         return is_new or strokes > 0

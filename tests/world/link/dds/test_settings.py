@@ -49,7 +49,7 @@ def test_the_users_own_configuration_is_taken_and_that_is_said():
     config = network((), {"CYCLONEDDS_URI": "file:///etc/dds.xml"})
 
     assert config.xml() == "file:///etc/dds.xml"
-    assert config.told == (
+    assert config.notices == (
         "CYCLONEDDS_URI is set: DDS uses the network of that configuration, not the loopback only.",
     )
 
@@ -57,7 +57,7 @@ def test_the_users_own_configuration_is_taken_and_that_is_said():
 def test_peers_of_the_environment_are_named_where_they_are_not_gone_to():
     assert (
         "--dds-on 192.0.2.7 connects to it"
-        in network((), {"ROS_STATIC_PEERS": "192.0.2.7"}).told[0]
+        in network((), {"ROS_STATIC_PEERS": "192.0.2.7"}).notices[0]
     )
 
 

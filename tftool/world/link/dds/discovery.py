@@ -297,7 +297,7 @@ class Discovery:
         self._show(key)
 
     def _show(self, key: tuple[str, bytes]) -> None:
-        """Add an endpoint to the graph, under its node, or under a substitute name for the node."""
+        """Add an endpoint, given by its role and GUID, to the graph below the endpoint's node."""
         found = self._found[key]
         nodes = self._nodes.get(found.participant, ({}, []))[0]
         node = nodes.get(key[1]) or self._node_of(found.participant)

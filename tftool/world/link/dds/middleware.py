@@ -64,7 +64,7 @@ class DdsMiddleware(Middleware):
         try:
             self._discovery = Discovery(self._participant, options.domain)
             super().__init__(self._discovery.graph)
-            self.notices = self._network.told
+            self.notices = self._network.notices
             self._types = Types(INTERFACES)
             self._services = ServicePart(self._participant, self._types, self.graph, self.sender)
             self._clients: dict[tuple[str, str], CycloneClient] = {}
@@ -327,9 +327,9 @@ class DdsMiddleware(Middleware):
 
     # Announcements of other processes
 
-    def _changed(self, found: GraphEntity | Process | None, there: bool) -> None:
-        self.report(found, there)
-        if there and found is not None:
+    def _changed(self, found: GraphEntity | Process | None, is_added: bool) -> None:
+        self.report(found, is_added)
+        if is_added and found is not None:
             self._compare(found)
         elif isinstance(found, GraphEntity):
             self._tell_departure(found)

@@ -34,13 +34,13 @@ class Network:
             on the routes to the peers.
         peers: Addresses to connect to.
         config: Cyclone's configuration set by the user, which replaces tftool's; "" if not set.
-        told: Sentences for the user, such as a warning about an environment variable.
+        notices: Sentences for the user, such as a warning about an environment variable.
     """
 
     interfaces: tuple[str, ...] = ()
     peers: tuple[str, ...] = ()
     config: str = ""
-    told: tuple[str, ...] = ()
+    notices: tuple[str, ...] = ()
 
     def __str__(self) -> str:
         if self.config:
@@ -56,7 +56,9 @@ class Network:
         """Return the settings as Cyclone's configuration in XML."""
         if self.config:
             return self.config
-        used = self.interfaces or ((LOOPBACK,) if self.is_loopback else _ways_to(self.peers))
+        used = self.interfaces or (
+            (LOOPBACK,) if self.is_loopback else _local_addresses(self.peers)
+        )
         # On named interfaces, multicast finds processes as in ROS 2; named peers are contacted.
         multicast = "spdp" if self.interfaces else "false"
         peers = self.peers or ((LOOPBACK,) if self.is_loopback else ())
@@ -107,7 +109,7 @@ def network(places: Iterable[str], environment: Mapping[str, str] | None = None)
         )
     if config and not places and not confined:
         told = "CYCLONEDDS_URI is set: DDS uses the network of that configuration, not "
-        return Network(config=config, told=(f"{told}the loopback only.",))
+        return Network(config=config, notices=(f"{told}the loopback only.",))
     told = ""
     # ROS_STATIC_PEERS alone does not open the network: only --dds-on does.
     if interfaces or peers:
@@ -118,8 +120,8 @@ def network(places: Iterable[str], environment: Mapping[str, str] | None = None)
             f"--dds-on {static[0]} connects to it."
         )
     if all(_is_loopback(one) for one in (*interfaces, *peers)):
-        return Network(told=(told,) if told else ())
-    return Network(tuple(interfaces), tuple(peers), told=(told,) if told else ())
+        return Network(notices=(told,) if told else ())
+    return Network(tuple(interfaces), tuple(peers), notices=(told,) if told else ())
 
 
 def _confined(variables: Mapping[str, str]) -> str:
@@ -201,13 +203,15 @@ def _is_loopback(place: str) -> bool:
         return False
 
 
-def _own(used: Iterable[str]) -> list[str]:
-    """Return the items of `used` that are addresses, not names of interfaces."""
-    return [one for one in used if one not in _interfaces()]
+def _own(interfaces: Iterable[str]) -> list[str]:
+    """Return the items of `interfaces` that are addresses, not names of interfaces."""
+    return [one for one in interfaces if one not in _interfaces()]
 
 
-def _ways_to(peers: Iterable[str]) -> tuple[str, ...]:
-    """Return this machine's addresses from which packets to `peers` would leave, and send none.
+def _local_addresses(peers: Iterable[str]) -> tuple[str, ...]:
+    """Return the addresses of this machine that packets to `peers` would have as sender.
+
+    No packet is sent.
 
     Raises:
         LinkError: If no route leads to a peer.

@@ -364,7 +364,9 @@ class FoxgloveClient:
             self._send(protocol.request("subscribe", subscriptions=asked))
 
     def _ask_again_later(self, sentence: str) -> bool:
-        """If `sentence` refuses a subscription, subscribe again later; return whether this is so.
+        """Subscribe again later if a server's warning says that a subscription was refused.
+
+        Return whether the warning says this.
 
         Servers made with Foxglove's SDK announce a channel slightly before the channel accepts
         subscriptions. The server refuses a quick subscription, and without a second subscription no

@@ -79,12 +79,12 @@ def any_hash_key(domain: int, name: str, ros_type: str) -> str:
     return f"{domain}/{name.strip('/')}/{dds_name(ros_type)}/*"
 
 
-def quality(stated: Quality) -> str:
-    """Return a quality of service as text for a token; default values become empty fields."""
-    reliability = "" if stated.is_reliable else _BEST_EFFORT
-    durability = _TRANSIENT_LOCAL if stated.is_latched else ""
-    history = _KEEP_ALL if stated.keeps_all else ""
-    return f"{reliability}:{durability}:{history},{stated.depth}:,:,:,,"
+def quality(offered: Quality) -> str:
+    """Return a publisher's or subscriber's quality of service as text for a token."""
+    reliability = "" if offered.is_reliable else _BEST_EFFORT
+    durability = _TRANSIENT_LOCAL if offered.is_latched else ""
+    history = _KEEP_ALL if offered.keeps_all else ""
+    return f"{reliability}:{durability}:{history},{offered.depth}:,:,:,,"
 
 
 def read_quality(text: str) -> Quality:

@@ -115,7 +115,7 @@ class ZenohMiddleware(Middleware):
             raise LinkError(_no_answer_at(reach))
 
     def _take_in_tokens(self, *, is_expected: bool) -> None:
-        """Fill the graph with existing entities; if `is_expected`, wait for at least one."""
+        """Add other processes' entities to the graph; if `is_expected`, wait for the first."""
 
         def all_are_known() -> bool:
             for prefix in (keys.LIVELINESS, keys.OURS):
