@@ -161,7 +161,7 @@ def test_what_tells_of_a_topic_in_too_many_bytes_is_not_taken(
     tmp_path, monkeypatch, write, is_whole
 ):
     path = write(tmp_path / "run", SENT)
-    monkeypatch.setattr(container, "LARGEST_TOLD", 10)
+    monkeypatch.setattr(container, "LARGEST_DESCRIPTION", 10)
     if not is_whole:
         path.write_bytes(path.read_bytes()[:-3000])
     try:

@@ -130,7 +130,7 @@ def _are_copies(model: Model, tracks: list[Track], topic: str) -> bool:
 
 
 def _placed(model: Model) -> list[Heard]:
-    """Return the topics whose stamps matter for tf: joint states, and messages with a position.
+    """Return the topics whose stamps are used in lookups: joint states, messages with positions.
 
     Programs look up the frames of messages with a position, but not those of diagnostics or logs.
     """
@@ -155,10 +155,13 @@ def _is_placed_by_stamp(model: Model, stream: "Track | Heard") -> bool:
     return is_sensor and not _is_single(stream) and not all(track.static for track in path)
 
 
-def _others(model: Model, odd: "list[Track | Heard]", family: int) -> str:
-    """Return "all others" if only streams in `odd` use the clock `family`, else "other streams"."""
+def _others(model: Model, reported: "list[Track | Heard]", family: int) -> str:
+    """Return "other streams" if a stream outside `reported` uses one clock, else "all others".
+
+    The clock `family` is 0 for a simulation's clock and 1 for the wall clock.
+    """
     streams: list[Track | Heard] = [*model.tracks, *model.heard]
-    also = any(one.families[family] for one in streams if one not in odd)
+    also = any(one.families[family] for one in streams if one not in reported)
     return "other streams" if also else "all others"
 
 

@@ -47,7 +47,7 @@ def severity_of(model: Model, track: Track, hit: Hit, limits: Limits) -> Severit
 
 
 def fed_twice(track: Track, hit: Hit, limits: Limits) -> Hit | None:
-    """Return the hit about an edge whose samples alternate between one fixed pose and other poses.
+    """Return a hit if an edge's samples alternate between one fixed pose and other poses.
 
     Return None for other edges. A usual cause is a robot_state_publisher with two sources of joint
     states, if one source sends constant values.

@@ -151,8 +151,8 @@ def traced(model: Model, question: Question) -> Explanation:
     )
 
 
-def _refusing(trace: LookupTrace, way: Sequence[Track], links: Sequence[TracedLink]) -> int | None:
-    """Return the index of the failing edge in `way`; None if no edge fails.
+def _refusing(trace: LookupTrace, path: Sequence[Track], links: Sequence[TracedLink]) -> int | None:
+    """Return the index of the failing edge in `path`; None if no edge fails.
 
     If several edges fail, prefer an edge whose oldest sample is newer than the lookup's time.
     """
@@ -160,8 +160,8 @@ def _refusing(trace: LookupTrace, way: Sequence[Track], links: Sequence[TracedLi
         number for number, link in enumerate(links) if link.verdict is not LinkVerdict.ANSWERS
     ]
     for number in refusing:
-        stamps = way[number].sorted_stamps
-        if not way[number].static and len(stamps) > 1 and trace.moment < stamps[0]:
+        stamps = path[number].sorted_stamps
+        if not path[number].static and len(stamps) > 1 and trace.moment < stamps[0]:
             return number
     return refusing[0] if refusing else None
 
@@ -195,18 +195,18 @@ def over_time(model: Model, question: Question, found: Explanation) -> Explanati
 
 
 def _holds(
-    way: Sequence[Track], asks: Stamps, question: Question
+    path: Sequence[Track], asks: Stamps, question: Question
 ) -> "np.ndarray[tuple[int], np.dtype[np.bool_]]":
     """Return a mask of the log times `asks` at which the lookup succeeds.
 
     Args:
-        way: Edges of the lookup's path.
+        path: Edges of the lookup's path.
         asks: Log times, nanoseconds, shape (n,).
         question: The lookup.
     """
     holds = np.ones(len(asks), dtype=bool)
     newest, oldest = [], []
-    for track in way:
+    for track in path:
         if track.static:
             holds &= asks >= int(track.logs[0])
             continue

@@ -334,12 +334,12 @@ def _two_clocks(link: TracedLink, track: Track, trace: LookupTrace) -> Reason:
     )
 
 
-def _on_another_clock(model: Model, way: Sequence[Track]) -> Reason | None:
+def _on_another_clock(model: Model, path: Sequence[Track]) -> Reason | None:
     """Return the reason if the stamps on a lookup's path come from two clocks; else None.
 
     See the check `clock-offset`.
     """
-    moving = [track for track in way if not track.static]
+    moving = [track for track in path if not track.static]
     off = [track for track in moving if track in model.unshifted]
     if not off or len(off) == len(moving):
         return None

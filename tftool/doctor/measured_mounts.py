@@ -142,7 +142,7 @@ def _between(path: TransformArray, begin: int, end: int) -> TransformArray:
 
 
 def _pairs(model: "Model") -> Iterator[tuple[TransformArray, TransformArray, Transform]]:
-    """Yield (body's motion, sensor's motion, published mount) for each sensor on a moving body.
+    """Yield (motion of the body, motion of the sensor, published mount) of each sensor.
 
     The two motions were recorded independently of each other.
     """

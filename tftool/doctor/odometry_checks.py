@@ -62,37 +62,39 @@ def odometry_tf_mismatch(model: Model, limits: Limits) -> Iterator[Hit]:
             yield hit
 
 
-def _is_same_base(model: Model, told: Track) -> bool:
+def _is_same_base(model: Model, odometry: Track) -> bool:
     """Whether an Odometry edge connects two base frames of a robot, such as base_footprint.
 
     All frames in tf between these two frames must be base frames too.
     """
-    above = model.above(told.child)
+    above = model.above(odometry.child)
     parents = [track.parent for track in above]
-    if told.parent not in parents:
-        return told.parent == told.child
-    between = {told.child, *parents[: parents.index(told.parent)]}
+    if odometry.parent not in parents:
+        return odometry.parent == odometry.child
+    between = {odometry.child, *parents[: parents.index(odometry.parent)]}
     return {last_part(name) for name in between} <= set(BASES)
 
 
-def _no_such_transform(model: Model, told: Track, topic: str) -> Hit:
-    above = model.parents.get(told.child)
-    hangs = f"in tf {told.child} hangs from {above.parent}" if above else "in tf it has no parent"
+def _no_such_transform(model: Model, odometry: Track, topic: str) -> Hit:
+    above = model.parents.get(odometry.child)
+    hangs = (
+        f"in tf {odometry.child} hangs from {above.parent}" if above else "in tf it has no parent"
+    )
     return hit_of(
-        told,
+        odometry,
         {
             "topic": topic,
             "differs": "and tf connect other frames:",
-            "found": f"{topic} says {told.name}; {hangs}",
+            "found": f"{topic} says {odometry.name}; {hangs}",
         },
         since=None,
-        frames=told.edge,
-        topics=told.topics,
+        frames=odometry.edge,
+        topics=odometry.topics,
         alone=True,
     )
 
 
-def _base_below(model: Model, told: Track) -> Track | None:
+def _base_below(model: Model, odometry: Track) -> Track | None:
     """Return the tf edge from the parent in an Odometry message to the robot's base.
 
     Return None if the message names a child frame, or if tf has no such edge.
@@ -100,19 +102,21 @@ def _base_below(model: Model, told: Track) -> Track | None:
     bases = [
         track
         for track in model.dynamic
-        if track.parent == told.parent and last_part(track.child) in BASES and not told.child
+        if track.parent == odometry.parent
+        and last_part(track.child) in BASES
+        and not odometry.child
     ]
     return bases[0] if bases else None
 
 
 def _disagreement(
-    track: Track, told: Track, topic: str, end: Stamp, limits: Limits
+    track: Track, odometry: Track, topic: str, end: Stamp, limits: Limits
 ) -> "Hit | None":
     """Return a hit if an edge in tf and an Odometry topic often have different poses at one stamp.
 
     Args:
         track: The edge in tf.
-        told: The poses in the Odometry messages.
+        odometry: The poses in the Odometry messages.
         topic: Name of the Odometry topic.
         end: Log time after which Odometry messages are ignored.
         limits: The thresholds.
@@ -120,22 +124,24 @@ def _disagreement(
     Returns:
         The hit; None if few poses differ, or if no stamps are equal.
     """
-    places = told.by_stamp[told.logs[told.by_stamp] <= end]
-    _, mine, theirs = np.intersect1d(track.sorted_stamps, told.stamps[places], return_indices=True)
+    places = odometry.by_stamp[odometry.logs[odometry.by_stamp] <= end]
+    _, mine, theirs = np.intersect1d(
+        track.sorted_stamps, odometry.stamps[places], return_indices=True
+    )
     if not len(mine):
         return None
     some, others = track.by_stamp[mine], places[theirs]
-    away = track.translations[some] - told.translations[others]
+    away = track.translations[some] - odometry.translations[others]
     apart = np.sqrt(np.einsum("ij,ij->i", away, away))
-    turned = angles_between(unit(track.rotations[some]), unit(told.rotations[others]))
+    turned = angles_between(unit(track.rotations[some]), unit(odometry.rotations[others]))
     wrong = (apart > limits["metres"]) | (turned > np.radians(limits["degrees"]))
     count = int(np.count_nonzero(wrong))
-    if count <= limits["share"] * len(wrong) or not told.child:
+    if count <= limits["share"] * len(wrong) or not odometry.child:
         return None
     return Hit(
         edges=(track.edge,),
-        topics=told.topics,
-        publishers=tuple(dict.fromkeys((*track.nodes, *told.nodes))),
+        topics=odometry.topics,
+        publishers=tuple(dict.fromkeys((*track.nodes, *odometry.nodes))),
         since=int(track.logs[some[wrong]].min()),
         count=count,
         facts={
@@ -152,32 +158,33 @@ def _disagreement(
     )
 
 
-def _far_apart(track: Track, told: Track, topic: str, limits: Limits) -> Hit | None:
+def _far_apart(track: Track, odometry: Track, topic: str, limits: Limits) -> Hit | None:
     """Return a hit if a robot's poses in tf and in Odometry are always far apart; else None.
 
     Far apart means farther than the threshold "far" plus the distance that the robot moved.
     """
     places = track.by_stamp
-    near = np.searchsorted(track.sorted_stamps, told.stamps).clip(max=len(places) - 1)
+    near = np.searchsorted(track.sorted_stamps, odometry.stamps).clip(max=len(places) - 1)
     some = places[near]
-    is_near = np.abs(track.stamps[some] - told.stamps) < limits["near"] * NANOSECONDS
+    is_near = np.abs(track.stamps[some] - odometry.stamps) < limits["near"] * NANOSECONDS
     if np.count_nonzero(is_near) < 3:
         return None
     some, others = some[is_near], np.flatnonzero(is_near)
-    away = track.translations[some] - told.translations[others]
+    away = track.translations[some] - odometry.translations[others]
     apart = np.sqrt(np.einsum("ij,ij->i", away, away))
     moved = max(
-        float(np.ptp(one, axis=0).max()) for one in (told.translations, track.translations[some])
+        float(np.ptp(one, axis=0).max())
+        for one in (odometry.translations, track.translations[some])
     )
     if not apart.min() > limits["far"] + moved:
         return None
     axis = int(np.abs(away).mean(axis=0).argmax())
-    mine, theirs = track.translations[some[0], axis], told.translations[others[0], axis]
+    mine, theirs = track.translations[some[0], axis], odometry.translations[others[0], axis]
     return Hit(
         edges=(track.edge,),
-        topics=told.topics,
-        publishers=tuple(dict.fromkeys((*track.nodes, *told.nodes))),
-        since=int(told.logs[others[0]]),
+        topics=odometry.topics,
+        publishers=tuple(dict.fromkeys((*track.nodes, *odometry.nodes))),
+        since=int(odometry.logs[others[0]]),
         count=len(others),
         facts={
             "topic": topic,
@@ -292,14 +299,14 @@ def odometry_cancelled(model: Model, limits: Limits) -> Iterator[Hit]:
                 yield hit_of(track, {**facts, "stays": stays, "drives": drives}, alone=True)
 
 
-def _reach(positions: Floats, share: float) -> float:
+def _reach(positions: Floats, percent: float) -> float:
     """Return a percentile of the distances from the median position, metres.
 
     Args:
         positions: Positions, metres, shape (n, 3); without positions, the result is 0.0.
-        share: The percentile, 0 to 100.
+        percent: The percentile, 0 to 100.
     """
     if not len(positions):
         return 0.0
     away = np.linalg.norm(positions - np.median(positions, axis=0), axis=1)
-    return percentile(away, share)
+    return percentile(away, percent)

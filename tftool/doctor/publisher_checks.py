@@ -191,17 +191,17 @@ def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
     yield from told_of.values()
 
 
-def _folded(told_of: dict[tuple[str, str], Hit]) -> dict[tuple[str, str], Hit]:
+def _folded(conflicts: dict[tuple[str, str], Hit]) -> dict[tuple[str, str], Hit]:
     """Merge each conflict into the conflict that causes it; other conflicts do not change.
 
     If a node computes a transform from a transform with two publishers, both transforms alternate.
 
     Args:
-        told_of: Conflicts by edge.
+        conflicts: Conflicts by edge.
     """
-    sure = {edge[0]: hit for edge, hit in told_of.items() if hit.confidence is Confidence.CERTAIN}
+    sure = {edge[0]: hit for edge, hit in conflicts.items() if hit.confidence is Confidence.CERTAIN}
     kept = {}
-    for edge, hit in told_of.items():
+    for edge, hit in conflicts.items():
         cause = sure.get(edge[0])
         if cause is None or cause is hit or len(hit.publishers) != 1:
             kept[edge] = hit
@@ -512,10 +512,10 @@ def _switching(tracks: Sequence[Track]) -> tuple[int, float, int]:
     return len(turns), span / (len(turns) + 1), first
 
 
-def _root(model: Model, frame: str, without: str) -> str:
-    """Return the topmost ancestor of `frame`, or the ancestor just below the frame `without`."""
+def _root(model: Model, frame: str, stop: str) -> str:
+    """Return the topmost ancestor of a frame, without the ancestor `stop` and those above it."""
     for track in model.above(frame):
-        if track.parent == without:
+        if track.parent == stop:
             break
         frame = track.parent
     return frame

@@ -285,10 +285,10 @@ class LookupTrace:
             )
         return buffer
 
-    def settle(self, way: Sequence[Track]) -> None:
+    def settle(self, path: Sequence[Track]) -> None:
         """Set `moment` to the latest common time of the edges, for a lookup of the latest time."""
         if self.stamp == LATEST:
-            newest = [int(held[-1]) for t in way if not t.static and len(held := self.held(t))]
+            newest = [int(held[-1]) for t in path if not t.static and len(held := self.held(t))]
             self.moment = min(newest, default=LATEST)
 
     # Times at which the lookup succeeds

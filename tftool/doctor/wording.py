@@ -170,18 +170,18 @@ def _facts(hit: Hit) -> dict[str, Fact]:
     return {"frames": several(hit.frames), **hit.facts}
 
 
-def _is_alike(first: Hit, other: Hit, told: Sequence[tuple[str, str]]) -> bool:
+def _is_alike(first: Hit, other: Hit, fields: Sequence[tuple[str, str]]) -> bool:
     """Whether two hits have the same publishers and nearly equal facts, and so share a line.
 
     Args:
         first: One hit.
         other: The other hit.
-        told: Names and formats of the facts in the line.
+        fields: Names and formats of the facts in the line.
     """
     kinds = [(bool(one.edges), bool(one.topics), one.publishers) for one in (first, other)]
     if kinds[0] != kinds[1]:
         return False
-    for key, spec in told:
+    for key, spec in fields:
         mine, theirs = _facts(first).get(key), _facts(other).get(key)
         if mine == theirs:
             continue
@@ -193,17 +193,17 @@ def _is_alike(first: Hit, other: Hit, told: Sequence[tuple[str, str]]) -> bool:
     return True
 
 
-def _line(name: str, rest: str, hits: Sequence[Hit], told: Sequence[tuple[str, str]]) -> str:
+def _line(name: str, rest: str, hits: Sequence[Hit], fields: Sequence[tuple[str, str]]) -> str:
     """Return one line of evidence for several similar hits, with ranges of differing numbers.
 
     Args:
         name: Name of the fact that is the subject of the line, such as "edge".
         rest: Template of the line after the subject.
         hits: The hits.
-        told: Names and formats of the facts in the line.
+        fields: Names and formats of the facts in the line.
     """
     facts = _facts(hits[0])
-    for key, _ in told:
+    for key, _ in fields:
         values = [_facts(hit).get(key) for hit in hits]
         numbers = [value for value in values if isinstance(value, int | float)]
         if numbers and min(numbers) != max(numbers):

@@ -341,18 +341,27 @@ def _moving_offset(
     child: str,
     first: Side,
     second: Side,
-    held: list[Held],
+    samples: list[Held],
     shift: Duration,
     parent: str,
     tolerance: Allowance,
 ) -> tuple[Displacement | None, str]:
     """Return the displacement of a moving frame from the first to the second set.
 
+    Args:
+        child: The moving frame.
+        first: The first set of frames.
+        second: The second set of frames.
+        samples: Samples of each frame in the first and in the second set, by frame name.
+        shift: Nanoseconds to add to a stamp of the first set to get a stamp of the second.
+        parent: Frame in which the displacement is expressed.
+        tolerance: The tolerance, to which differences are compared to find the largest.
+
     Returns:
         The displacement in the frame `parent`, and an empty text; or None, and the reason why the
         displacement is unknown.
     """
-    stamps = _common(held[0][child], held[1][child], shift)
+    stamps = _common(samples[0][child], samples[1][child], shift)
     if not len(stamps):
         return None, APART
     stamps = stamps[:: -(-len(stamps) // MOST_MOMENTS)]

@@ -100,7 +100,7 @@ def sample(buffer: Buffer, target: str, source: str, moments: Moments | None = N
         buffer: Source of the frames.
         target: Frame in which the results are expressed.
         source: Frame to look up.
-        moments: Times of the lookups; None for the stamps of the edge of highest rate.
+        moments: Times of the lookups; None for the stamps of the frame with the highest rate.
 
     Raises:
         TransformException: If a name is unknown, the frames are not connected, or no lookup
@@ -149,9 +149,9 @@ def trajectory_of(path: TransformArray) -> Trajectory:
 
 
 def links_between(buffer: Buffer, target: str, source: str) -> list[str]:
-    """Return the child frame of each edge on the path between two frames.
+    """Return the frames on the path between two frames, without their common ancestor.
 
-    For a frame with several parents, the edge from the newest parent is used.
+    For a frame with several parents, the path uses the newest parent.
 
     Raises:
         TransformException: If a name is unknown, or the frames are in different trees.

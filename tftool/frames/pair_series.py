@@ -278,12 +278,12 @@ def _shade(run: RefusedRun, start: Stamp) -> RefusedSpan:
 
 
 def _columns(
-    one: Trajectory, start: Stamp, measure: Callable[[TransformArray], Floats]
+    trajectory: Trajectory, start: Stamp, measure: Callable[[TransformArray], Floats]
 ) -> "tuple[Floats, Floats, np.ndarray]":
     """Return the points of a curve, and a mask of its gaps.
 
     Args:
-        one: Trajectory of a pair of frames.
+        trajectory: Trajectory of a pair of frames.
         start: Stamp that is 0 on the time axis, nanoseconds.
         measure: Function that computes the values of the curve from poses.
 
@@ -291,10 +291,10 @@ def _columns(
         Times in seconds, shape (n,); values, shape (n,); and whether there is a gap after each
         point except the last, shape (n - 1,).
     """
-    times = (one.path.stamps - start) / NANOSECONDS
+    times = (trajectory.path.stamps - start) / NANOSECONDS
     apart = np.diff(times)
     usual = float(np.median(apart)) if len(apart) else 0.0
-    return times, measure(one.path), apart > LONG_SILENCE * usual
+    return times, measure(trajectory.path), apart > LONG_SILENCE * usual
 
 
 def _jumps(angles: Floats) -> "np.ndarray":

@@ -68,7 +68,7 @@ class TransformLog:
         return copied
 
     def transforms(self) -> "Transforms":
-        """Return all transforms as columns of each edge, with log times and publishers."""
+        """Return all transforms as columns, separately for each pair of parent and child."""
         # Imported here because most logs are never read, and need no numpy.
         from tftool.recordings.contract import Transforms
 

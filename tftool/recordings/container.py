@@ -21,22 +21,22 @@ from tftool.recordings.decompression import LARGEST
 MOST_STREAMS: Final = 65_536
 """Maximum number of streams read from one recording; further streams are left out."""
 
-LARGEST_TOLD: Final = 1 << 26
+LARGEST_DESCRIPTION: Final = 1 << 26
 """Maximum size of a record that describes a stream, bytes, because the record is copied."""
 
 
-def check_told(count: int) -> None:
+def check_description_size(count: int) -> None:
     """Check the size of a record that describes a channel or a message type.
 
     Args:
         count: Size of the record, bytes.
 
     Raises:
-        InputError: If the size is above `LARGEST_TOLD`.
+        InputError: If the size is above `LARGEST_DESCRIPTION`.
     """
-    if count > LARGEST_TOLD:
+    if count > LARGEST_DESCRIPTION:
         raise InputError(
-            f"a record about a topic has {count} bytes, but the limit is {LARGEST_TOLD}"
+            f"a record about a topic has {count} bytes, but the limit is {LARGEST_DESCRIPTION}"
         )
 
 
@@ -141,13 +141,13 @@ class MessageTable:
             np.array(lasts, dtype=np.int64) - starts,
         )
 
-    def chosen(self, which: Stamps) -> "MessageTable":
+    def chosen(self, indices: Stamps) -> "MessageTable":
         """Return a table of the messages at some indices."""
         columns = (self.channels, self.log_times, self.publish_times, self.sequences)
         rest = (self.starts, self.lengths)
-        return MessageTable(self.data, *(one[which] for one in (*columns, *rest)))
+        return MessageTable(self.data, *(one[indices] for one in (*columns, *rest)))
 
-    def behind(self, heads: npt.NDArray[Any]) -> tuple[Bytes, Stamps]:
+    def with_headers(self, heads: npt.NDArray[Any]) -> tuple[Bytes, Stamps]:
         """Return records that each consist of a new header and the payload of one message.
 
         Args:

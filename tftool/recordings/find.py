@@ -194,7 +194,7 @@ class Found:
     paths: tuple[Path, ...]
     passed_over: tuple[Path, ...] = ()
 
-    def told(self) -> list[str]:
+    def notices(self) -> list[str]:
         """Return sentences about skipped files, and about the format of pose files."""
         if self.kind is Kind.POSES:
             from tftool.recordings.poses.pose_formats import convention_of

@@ -37,7 +37,7 @@ def ros2_definition(name: str, interfaces: Interfaces = INTERFACES) -> str:
     return "\n".join(text.strip("\n") for text in texts) + "\n"
 
 
-def same_layout(name: str, one: Interfaces, other: Interfaces) -> bool:
+def same_layout(name: str, first: Interfaces, second: Interfaces) -> bool:
     """Whether two sets of definitions give the messages of a type the same byte layout.
 
     Raises:
@@ -54,7 +54,7 @@ def same_layout(name: str, one: Interfaces, other: Interfaces) -> bool:
         ]
 
     full = full_name(name)
-    return shape(one, full) == shape(other, full)
+    return shape(first, full) == shape(second, full)
 
 
 def ros1_definition(name: str, interfaces: Interfaces = INTERFACES) -> str:

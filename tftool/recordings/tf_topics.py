@@ -134,17 +134,17 @@ def implying(topics: Iterable[RecordedTopic]) -> tuple[RecordedTopic, ...]:
     return tuple(one for one in topics if one.type in IMPLYING and one.encoding in ("cdr", "ros1"))
 
 
-def joined(said: Transforms, implied: Transforms) -> Transforms:
+def joined(sent: Transforms, implied: Transforms) -> Transforms:
     """Merge transforms from tf topics with transforms from odometry and poses.
 
     Odometry and poses are used only for frames without transforms on tf topics.
 
     Args:
-        said: Transforms from tf topics.
+        sent: Transforms from tf topics.
         implied: Transforms from odometry and poses in the same recording.
     """
-    known: Collection[str] = {edge.child for edge in said.edges}
-    first = len(said.log_times)
+    known: Collection[str] = {edge.child for edge in sent.edges}
+    first = len(sent.log_times)
     added = tuple(
         Edge(
             edge.parent,
@@ -158,9 +158,9 @@ def joined(said: Transforms, implied: Transforms) -> Transforms:
         if edge.child not in known and edge.child != edge.parent
     )
     return Transforms(
-        said.edges + added,
-        np.concatenate([said.log_times, implied.log_times]),
-        np.concatenate([said.senders, implied.senders]),
-        said.publishers,
-        said.damage + implied.damage,
+        sent.edges + added,
+        np.concatenate([sent.log_times, implied.log_times]),
+        np.concatenate([sent.senders, implied.senders]),
+        sent.publishers,
+        sent.damage + implied.damage,
     )

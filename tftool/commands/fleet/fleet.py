@@ -424,7 +424,7 @@ def expanded(names: Sequence[str]) -> list[str]:
             continue
         several = what.kind is Kind.SEVERAL
         if several:
-            for text in what.told():
+            for text in what.notices():
                 notice(visible(text))
         found += [str(path) for path in what.paths] if several else [word]
     return list(dict.fromkeys(found))

@@ -476,7 +476,7 @@ def _bar(source: str) -> "Iterator[Bar | None]":
 
 def _tell(frames: Frames, *, notes: bool) -> None:
     """Print which files were skipped; with `notes`, also print notes about the frames."""
-    for text in () if frames.found is None else frames.found.told():
+    for text in () if frames.found is None else frames.found.notices():
         notice(visible(text))
     told = frames.notes if notes else ()
     most = _MOST_NOTES if frames.recording is not None else len(told)

@@ -154,7 +154,7 @@ class BodyMotion:
 
 
 def poses_of(edge: Edge) -> TransformArray:
-    """Return the transforms of one recorded edge as poses in order of time."""
+    """Return the recorded transforms between one parent and child as poses in order of time."""
     order = np.argsort(edge.stamps, kind="stable")
     poses = edge.translations[order], batch.unit(edge.rotations[order])
     valid = np.asarray(np.isfinite(np.concatenate(poses, axis=1)).all(axis=1))

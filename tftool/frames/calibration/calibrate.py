@@ -535,15 +535,15 @@ def _fixed_interval(sizes: Floats, shown: _Shown, problem: Problem, fit: Fit) ->
     return Interval(_trio(moves, np.abs(axis[0])), _trio(turns, np.sqrt(across.clip(0.0))))
 
 
-def _trio(values: Floats, hidden: Floats) -> Trio:
+def _trio(values: Floats, unseen: Floats) -> Trio:
     """Return half-widths along x, y and z; None for an axis that is mostly undetermined.
 
     Args:
         values: Half-widths, shape (3,).
-        hidden: Undetermined fraction of each axis, shape (3,).
+        unseen: Undetermined fraction of each axis, 0 to 1, shape (3,).
     """
     x, y, z = (
-        None if part > HIDDEN else float(value) for value, part in zip(values, hidden, strict=True)
+        None if part > HIDDEN else float(value) for value, part in zip(values, unseen, strict=True)
     )
     return x, y, z
 

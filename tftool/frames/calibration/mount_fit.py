@@ -183,6 +183,10 @@ class _Residuals:
         through the lever arm between the two frames in the translation residual. Half of a rotation
         residual is expected to come from the first motion. Without this common part the rows are
         independent, as least squares assumes.
+
+        Args:
+            of_a: Rotation matrices of the first motion, shape (n, 3, 3).
+            of_x: Rotation matrix of the mount, shape (3, 3).
         """
         lever = of_a @ (-0.5 * cross(self.fit.shift[None])[0] @ of_x)
         self.errors[:, 3:] -= np.einsum("nij,nj->ni", lever, self.errors[:, :3])

@@ -155,7 +155,7 @@ def _written(
     frames: Framed,
     place: Path,
     form: Format,
-    asked: Sequence[tuple[str, str]],
+    pairs: Sequence[tuple[str, str]],
     moments: Moments,
     style: Style,
     force: bool,
@@ -164,16 +164,16 @@ def _written(
     """Write pairs of frames over time, or links, depending on the format."""
     buffer = buffer_of(frames)
     if not form.is_trajectory:
-        if asked:
+        if pairs:
             raise UsageError(
                 f"{form} files contain all frames, not a pair: leave out the target and the source."
             )
         return write_links(buffer, place, form, style, force=force, progress=progress)
-    if not asked:
+    if not pairs:
         raise UsageError(
             f"{form} files contain pairs of frames over time: name a target and a source."
         )
-    found = [sample(buffer, target, source, moments) for target, source in asked]
+    found = [sample(buffer, target, source, moments) for target, source in pairs]
     return write_trajectories(found, place, form, style, force=force, progress=progress)
 
 

@@ -186,38 +186,38 @@ def _listed(words: Sequence[str]) -> list[str]:
     return [f"{name}, {value}" for name, value in zip(texts[::2], texts[1::2], strict=True)]
 
 
-def _words(one: FixedLink) -> list[str]:
-    return [*publisher_words(one.pose), "--frame-id", one.parent, "--child-frame-id", one.child]
+def _words(link: FixedLink) -> list[str]:
+    return [*publisher_words(link.pose), "--frame-id", link.parent, "--child-frame-id", link.child]
 
 
-def _whole_name(one: FixedLink) -> FixedLink:
-    """Return `one` after a check of its frame names.
+def _whole_name(link: FixedLink) -> FixedLink:
+    """Return the link unchanged, after a check of its frame names.
 
     Raises:
         InputError: If a name contains characters that a launch file or script cannot contain.
     """
-    for name in (one.parent, one.child):
+    for name in (link.parent, link.child):
         if "\0" in name or _NOT_XML.search(name):
             raise InputError(
                 f"The frame name {name!r} has characters that a script or launch file cannot "
                 "contain."
             )
-    return one
+    return link
 
 
-def _plain(one: FixedLink) -> str:
+def _plain(link: FixedLink) -> str:
     """Return the options of static_transform_publisher as text without quotes.
 
     Raises:
         InputError: If ROS would read a frame name as several words or as another value.
     """
-    for name in (one.parent, one.child):
+    for name in (link.parent, link.child):
         if not _PLAIN_WORD.fullmatch(name):
             raise InputError(
                 f"This kind of launch file would change the frame name {name!r}: "
                 "write a .launch.py or .sh file."
             )
-    return " ".join(_words(_whole_name(one)))
+    return " ".join(_words(_whole_name(link)))
 
 
 def _node_names(links: Sequence[FixedLink]) -> list[str]:

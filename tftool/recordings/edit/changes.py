@@ -112,9 +112,9 @@ class Edits:
         return stamp + self.shift if stamp else stamp
 
 
-def fits(link: LinkName, wanted: LinkName) -> bool:
-    """Whether a link matches the pair of names in an option, in which "*" means any name."""
-    return all(word in ("*", name) for name, word in zip(link, wanted, strict=True))
+def fits(link: LinkName, pattern: LinkName) -> bool:
+    """Whether a link (parent, child) matches a pattern, in which "*" means any name."""
+    return all(word in ("*", name) for name, word in zip(link, pattern, strict=True))
 
 
 def carries_transforms(channel: Channel) -> bool:
@@ -278,12 +278,12 @@ class Changer:
                     change.put_one(row, after.payload)
         return change.finished()
 
-    def _by_kind(self, change: TableChange, which: Stamps, channel: Channel) -> Stamps:
+    def _by_kind(self, change: TableChange, indices: Stamps, channel: Channel) -> Stamps:
         """Change messages in bulk, and return the indices of messages that are still unchanged.
 
         Args:
             change: Table that receives the changes.
-            which: Indices of the messages to change.
+            indices: Indices of the messages to change.
             channel: Channel of the messages.
 
         Returns:
@@ -291,13 +291,13 @@ class Changer:
         """
         edits, static = self._edits, carries_statics(channel)
         if edits.stamps or edits.reparent:
-            return which
+            return indices
         kinds = self._kinds.get(channel)
         if kinds is None:
             kinds = self._kinds[channel] = Kinds(
                 LAYOUTS[channel.encoding], lambda payload: self._learned(payload, channel)
             )
-        found, rest = kinds.groups(change.table, which)
+        found, rest = kinds.groups(change.table, indices)
         others = [rest]
         for kind, numbers, rows in found:
             whole: npt.NDArray[np.bool_] = np.ones(len(numbers), dtype=np.bool_)

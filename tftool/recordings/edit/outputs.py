@@ -110,13 +110,13 @@ class EditedFile:
     # Channels
 
     def _conversion(
-        self, source: int, number: int, channel: Channel, tape: ContainerReader
+        self, input_number: int, number: int, channel: Channel, tape: ContainerReader
     ) -> Conversion | None:
         """Return the conversion of an input's channel for this file.
 
         Return None if the channel's messages cannot be converted, and must be left out.
         """
-        key = source, number
+        key = input_number, number
         if key not in self._conversions:
             try:
                 self._conversions[key] = self._converted(channel, tape)
@@ -148,21 +148,21 @@ class EditedFile:
         return Conversion(channel, bytes)
 
     def _register(
-        self, source: int, number: int, channel: Channel, tape: ContainerReader
+        self, input_number: int, number: int, channel: Channel, tape: ContainerReader
     ) -> int | None:
         """Return the number of an input's channel in this file; None for an omitted channel."""
-        key = source, number
+        key = input_number, number
         found = self._numbers.get(key)
         if found is not None:
             return found
-        conversion = self._conversion(source, number, channel, tape)
+        conversion = self._conversion(input_number, number, channel, tape)
         if conversion is None:
             return None
         written = conversion.channel
         if channel.topic in self._latched:
             written = _latching(written)
         same = written == channel
-        if same and self._fits(source, tape) and number not in self.channels:
+        if same and self._fits(input_number, tape) and number not in self.channels:
             assert self._chunks is not None
             assert isinstance(tape, ChunkedReader)
             self._chunks.adopt(written, number, tape.origin(number))
@@ -181,14 +181,14 @@ class EditedFile:
             self.channels[found] = channel
         return found
 
-    def _fits(self, source: int, tape: ContainerReader) -> bool:
-        """Whether chunks of an input can be copied, because the channel numbers are the same."""
-        found = self._compatible.get(source)
+    def _fits(self, input_number: int, tape: ContainerReader) -> bool:
+        """Whether chunks of an input can be copied: all channel numbers are the same here."""
+        found = self._compatible.get(input_number)
         if found is None:
             found = tape.container == self.container and (
                 not self._compatible or self._agrees(tape)
             )
-            self._compatible[source] = found
+            self._compatible[input_number] = found
         return found and self._chunks is not None
 
     def _agrees(self, tape: ContainerReader) -> bool:
@@ -201,18 +201,18 @@ class EditedFile:
 
     # Messages
 
-    def write(self, source: int, table: MessageTable, tape: ContainerReader) -> bool:
+    def write(self, input_number: int, table: MessageTable, tape: ContainerReader) -> bool:
         """Append messages of an input; return whether at least one message was written."""
         numbers = np.full(len(table), -1, dtype=np.int64)
         change = TableChange(table)
         for own in table.owners:
-            number = self._register(source, own, tape.channels[own], tape)
+            number = self._register(input_number, own, tape.channels[own], tape)
             which = np.flatnonzero(table.channels == own)
             if number is None:
                 change.keep[which] = False
                 continue
             numbers[which] = number
-            conversion = self._conversions[source, own]
+            conversion = self._conversions[input_number, own]
             assert conversion is not None
             if conversion.payload is not bytes:
                 self._convert(change, which, tape.channels[own], conversion)
@@ -224,7 +224,7 @@ class EditedFile:
         return True
 
     def _convert(
-        self, change: TableChange, which: Stamps, channel: Channel, conversion: Conversion
+        self, change: TableChange, indices: Stamps, channel: Channel, conversion: Conversion
     ) -> None:
         """Write messages of one channel in the encoding of the output, in bulk if possible."""
         if carries_transforms(channel):
@@ -237,8 +237,8 @@ class EditedFile:
                     return Result(conversion.payload(payload), layout, range(count)), Counter()
 
                 kinds = self._kinds[channel] = Kinds(LAYOUTS[channel.encoding], learned)
-            found, which = kinds.groups(change.table, which)
-            others = [which]
+            found, indices = kinds.groups(change.table, indices)
+            others = [indices]
             for kind, numbers, rows in found:
                 # Seconds are signed in ROS 2's layout, and unsigned in ROS 1's.
                 fit = np.ones(len(rows), dtype=np.bool_)
@@ -248,8 +248,8 @@ class EditedFile:
                 if fit.any():
                     length = int(change.table.lengths[numbers[0]])
                     change.put(numbers[fit], kind.changed(rows[fit], length))
-            which = np.concatenate(others)
-        for row in which.tolist():
+            indices = np.concatenate(others)
+        for row in indices.tolist():
             try:
                 change.put_one(row, conversion.payload(change.table.payload(row)))
             except MalformedMessage as error:
@@ -270,13 +270,13 @@ class EditedFile:
             packed = payload if self._pack is None else self._pack(payload)
             self.writer.write(number, log_time, packed, publish_time, sequence)
 
-    def can_copy(self, source: int, block: Block, tape: ContainerReader) -> bool:
+    def can_copy(self, input_number: int, block: Block, tape: ContainerReader) -> bool:
         """Whether a block of messages of an input can be copied unchanged."""
-        if not (block.whole and isinstance(block, Chunk) and self._fits(source, tape)):
+        if not (block.whole and isinstance(block, Chunk) and self._fits(input_number, tape)):
             return False
         for number in block.counts or ():
             channel = tape.channels[number]
-            if self._register(source, number, channel, tape) != number:
+            if self._register(input_number, number, channel, tape) != number:
                 return False
             if self.channels[number] != channel:
                 return False
@@ -334,7 +334,7 @@ def digest_table(
         heads["log_time"] = some.log_times
         if container_named(container).keeps_sequences:
             heads["publish_time"], heads["sequence"] = some.publish_times, some.sequences
-        digests[key] = zlib.crc32(some.behind(heads)[0].data, digests.get(key, 0))
+        digests[key] = zlib.crc32(some.with_headers(heads)[0].data, digests.get(key, 0))
 
 
 def _defined(channel: Channel) -> Channel:

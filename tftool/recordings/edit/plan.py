@@ -119,7 +119,7 @@ def open_input(name: str) -> EditedInput:
     if not found.kind.is_recording:
         raise UsageError(f"'{name}' is a {found.kind.value}: name a recording instead.")
     opened = EditedInput(name)
-    opened.notes += found.told()
+    opened.notes += found.notices()
     try:
         if found.kind is Kind.ROSBAG2:
             folder = found.paths[0]

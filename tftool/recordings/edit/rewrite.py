@@ -338,7 +338,9 @@ class _Job:
         suffix = container_named(self._container).suffix
         return part / f"{self._path.name}_{number}{suffix}"
 
-    def _write_block(self, source: int, tape: ContainerReader, block: Block, part: Path) -> None:
+    def _write_block(
+        self, input_number: int, tape: ContainerReader, block: Block, part: Path
+    ) -> None:
         stays = self._stays_unseen(block, tape) and block.sound()
         table = after = None
         done = Counter[str]()
@@ -350,21 +352,23 @@ class _Job:
         keeps = not self._edits.links or self._changer.keeps_all(block.start, block.end)
         if after is table and keeps and self._in_one_part(block):
             assert isinstance(block, Chunk)
-            output = self._output(self._part_of(source, block.start), part)
-            if output.can_copy(source, block, tape):
+            output = self._output(self._part_of(input_number, block.start), part)
+            if output.can_copy(input_number, block, tape):
                 output.copy(block)
                 return
         self._changer.counts.update(done)
-        for number, rows in self._by_part(source, block.table() if after is None else after):
+        for number, rows in self._by_part(input_number, block.table() if after is None else after):
             output = self._output(number, part)
-            if output.write(source, rows, tape):
+            if output.write(input_number, rows, tape):
                 output.closed_block(block)
 
-    def _by_part(self, source: int, table: MessageTable) -> Iterator[tuple[int, MessageTable]]:
+    def _by_part(
+        self, input_number: int, table: MessageTable
+    ) -> Iterator[tuple[int, MessageTable]]:
         """Yield the number of each output file, with the messages that belong in the file."""
         if not self._edits.split_every:
             if len(table):
-                yield self._part_of(source, 0), table
+                yield self._part_of(input_number, 0), table
             return
         parts = np.maximum(0, (table.log_times - self._start) // self._edits.split_every)
         for number in dict.fromkeys(parts.tolist()):
@@ -377,9 +381,10 @@ class _Job:
 
     # Parts
 
-    def _part_of(self, source: int, log_time: Stamp) -> int:
+    def _part_of(self, input_number: int, log_time: Stamp) -> int:
+        """Return the number of the output file for a message of an input."""
         if self._by_tape:
-            return source
+            return input_number
         if not self._edits.split_every:
             return 0
         return max(0, (log_time - self._start) // self._edits.split_every)

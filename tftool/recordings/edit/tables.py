@@ -104,21 +104,21 @@ class Kinds:
         self._known: dict[int, list[MessageKind]] = {}
 
     def groups(
-        self, table: MessageTable, which: Stamps
+        self, table: MessageTable, indices: Stamps
     ) -> "tuple[list[tuple[MessageKind, Stamps, Bytes]], Stamps]":
         """Group messages by kind, that is, by the frames in them.
 
         Args:
             table: The messages.
-            which: Indices of the channel's messages.
+            indices: Indices of the channel's messages.
 
         Returns:
             First, a list of kinds, each with the indices and the bytes (one row per message) of its
             messages. Second, the indices of all other messages, which must be changed one by one.
         """
         found, rest = [], []
-        for length in np.unique(table.lengths[which]).tolist():
-            left = which[table.lengths[which] == length]
+        for length in np.unique(table.lengths[indices]).tolist():
+            left = indices[table.lengths[indices] == length]
             begin, width = row_span(self._layout, length)
             if int(table.starts[left].min()) + begin < 0 or width < 8:
                 rest.append(left)
@@ -138,7 +138,7 @@ class Kinds:
                     found.append((kind, left[chosen], rows))
                 left = left[:0] if fits is None else left[~fits]
                 number += 1
-        return found, np.concatenate(rest) if rest else which[:0]
+        return found, np.concatenate(rest) if rest else indices[:0]
 
     def _add(self, known: list[MessageKind], payload: bytes) -> bool:
         """Add the kind of `payload` to `known`; return False if it cannot be changed in bulk."""
@@ -188,11 +188,11 @@ class TableChange:
         self._pieces: list[Bytes] = [table.data]
         self._end = len(table.data)
 
-    def put(self, which: Stamps, payloads: Bytes) -> None:
+    def put(self, indices: Stamps, payloads: Bytes) -> None:
         """Replace the bytes of some messages; `payloads` has the shape (n, length)."""
         length = payloads.shape[1]
-        self._starts[which] = self._end + np.arange(len(which)) * length
-        self._lengths[which] = length
+        self._starts[indices] = self._end + np.arange(len(indices)) * length
+        self._lengths[indices] = length
         self._pieces.append(payloads.ravel())
         self._end += payloads.size
 

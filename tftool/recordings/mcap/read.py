@@ -29,7 +29,7 @@ from tftool.recordings.container import (
     MessageHead,
     MessageTable,
     Piece,
-    check_told,
+    check_description_size,
 )
 from tftool.recordings.containers import MCAP_MAGIC
 from tftool.recordings.contract import Progress, Stamps
@@ -246,7 +246,7 @@ class Mcap(ChunkedReader):
 
     def _describe(self, code: int, body: bytes) -> None:
         """Register the schema or channel in a record; ignore a channel registered before."""
-        check_told(len(body))
+        check_description_size(len(body))
         number, schema = struct.unpack_from("<HH", body)
         if code == SCHEMA:
             name, place = text_at(body, 2)
@@ -343,7 +343,7 @@ class Mcap(ChunkedReader):
                     channel, _, log_time, _ = MESSAGE_HEAD.unpack_from(block, body - base)
                     loose.found.append(channel, log_time, position + IN_CHUNK, length - 22)
                 elif code in _TELLING:
-                    check_told(length)
+                    check_description_size(length)
                     self._describe(code, self.at(body, length))
                 elif not self._by_index:
                     self._take_extra(code, position, length)

@@ -273,7 +273,7 @@ class McapWriter(ChunkedWriter):
         heads["sequence"] = table.sequences
         heads["log_time"] = table.log_times
         heads["publish_time"] = table.publish_times
-        data, places = table.behind(heads)
+        data, places = table.with_headers(heads)
         self._keep(data.tobytes())
         pairs = np.stack([table.log_times, places], axis=1)
         for channel in channels:

@@ -14,7 +14,7 @@ from tftool.messages.transform_rows import Bytes
 from tftool.recordings.channel import Channel
 from tftool.recordings.chunked import FAULTS, Chunk, ChunkedReader, reason_of
 from tftool.recordings.columns import Batch, in_order, words_at
-from tftool.recordings.container import MessageHead, MessageTable, check_told
+from tftool.recordings.container import MessageHead, MessageTable, check_description_size
 from tftool.recordings.containers import ROS1_MAGIC
 from tftool.recordings.contract import Progress, Stamps
 from tftool.recordings.decompression import Ahead, Packed
@@ -141,7 +141,7 @@ class Rosbag1(ChunkedReader):
 
     def _describe(self, header: Mapping[bytes, bytes], data: bytes) -> None:
         """Register the connection in a record; ignore a connection number in use."""
-        check_told(len(data))
+        check_description_size(len(data))
         (number,) = U32.unpack(header[b"conn"])
         if number in self.channels:
             return

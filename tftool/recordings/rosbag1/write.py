@@ -160,7 +160,7 @@ class Rosbag1Writer(ChunkedWriter):
         heads["connection"] = table.channels
         heads["sec"], heads["nanosec"] = np.divmod(logs, NANOSECONDS)
         heads["length"] = table.lengths
-        data, places = table.behind(heads)
+        data, places = table.with_headers(heads)
         ends = np.append(places[1:], len(data))
         begin = 0
         while begin < len(table):
