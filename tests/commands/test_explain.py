@@ -23,8 +23,8 @@ def test_a_question_before_a_frame_begins_is_told_what_to_ask_for(tftool):
     assert result.status == 4
     # turtle2 is spawned after a second, so `echo` refuses too.
     assert result.out.splitlines()[0].endswith("a robot has only the data received by then")
-    assert "turtle2 in world begins 508 ms after the question, at 1001.008" in result.out
-    assert "cure   ask for 1001.008 or later" in result.out
+    assert "turtle2 in world begins 508 ms after the requested time, at 1001.008" in result.out
+    assert "cure   look up 1001.008 or later" in result.out
     assert "pruned" not in result.out
 
 
@@ -60,7 +60,7 @@ def test_programs_get_whole_nanoseconds(tftool):
 def test_a_name_that_is_none_is_explained_too(tftool):
     result = tftool("explain", "turtle2", "turtle9", "turtles", "--at", "5")
     assert result.status == 4
-    assert "no transform names turtle9" in result.out
+    assert "no transform contains the frame turtle9" in result.out
 
 
 @pytest.mark.parametrize(

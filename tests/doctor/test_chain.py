@@ -68,10 +68,10 @@ def test_a_floating_joint_is_why_a_lookup_refuses():
 @pytest.mark.parametrize(
     ("name", "why", "cure"),
     [
-        ("tol", "'tol' is no link of robot 'arm'", "did you mean tool?"),
-        ("/tool", "'/tool' is no link", "leave out ROS 1's leading slash: tool"),
-        ("elbow", "'elbow' is a joint of robot 'arm'", "ask for the link it moves: lower"),
-        ("wheel", "'wheel' is no link", "its links are base, upper, lower, tool, ball"),
+        ("tol", "'tol' is not a link of robot 'arm'", "did you mean tool?"),
+        ("/tool", "'/tool' is not a link", "leave out ROS 1's leading slash: tool"),
+        ("elbow", "'elbow' is a joint of robot 'arm'", "look up the link that it moves: lower"),
+        ("wheel", "'wheel' is not a link", "its links are base, upper, lower, tool, ball"),
     ],
 )
 def test_a_name_that_is_no_link_is_told_with_what_was_meant(name, why, cure):

@@ -187,7 +187,9 @@ def over_time(model: Model, question: Question, found: Explanation) -> Explanati
     holds = np.zeros(MOMENTS, dtype=bool) if way is None else _holds(way, asks, question)
     failed = float(np.count_nonzero(~holds)) / MOMENTS
     length = span(model.end - model.start)
-    words = "works now; it would have failed" if found.available else "fails now, and would have"
+    words = (
+        "works now; it would have failed" if found.available else "fails now, and would have failed"
+    )
     share = f"{failed * 100:.0f} %" if failed >= 0.005 or not failed else "less than 1 %"
     told = f"this lookup {words} for {share} of the last {length}"
     why = (told, *found.why) if failed or not found.available else found.why
@@ -239,8 +241,8 @@ def _misleading(
         return ()
     frame, stamp = quoted
     return (
-        f"tf2's text quotes {moment(stamp)}, a time of {frame}, which is not on the way: "
-        "leave it out of account",
+        f"tf2's text quotes {moment(stamp)}, a time of {frame}, but {frame} is not on the "
+        "path: ignore this time",
     )
 
 

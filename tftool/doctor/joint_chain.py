@@ -125,11 +125,11 @@ def _unknown(robot: Robot, names: list[str]) -> Told:
     for name in names:
         if name in robot.joints:
             child = robot.joints[name].child
-            why.append(f"'{name}' is a joint of robot '{robot.name}', and no link")
-            remedies.append((f"ask for the link it moves: {child}", ""))
+            why.append(f"'{name}' is a joint of robot '{robot.name}', not a link")
+            remedies.append((f"look up the link that it moves: {child}", ""))
             continue
         bare = name.lstrip("/")
-        why.append(f"'{name}' is no link of robot '{robot.name}'")
+        why.append(f"'{name}' is not a link of robot '{robot.name}'")
         near = near_names(name, robot.links, 3)
         if bare != name and bare in robot.links:
             remedies.append((f"leave out ROS 1's leading slash: {bare}", ""))
@@ -142,15 +142,15 @@ def _unknown(robot: Robot, names: list[str]) -> Told:
 
 def _lost(lost: list[ChainLink]) -> Told:
     why = [
-        f"where {link.joint.child} is in {link.joint.parent} is not known: joint "
-        f"'{link.joint.name}' is floating, and its pose comes from another publisher than "
-        "robot_state_publisher, which skips it"
+        f"the pose of {link.joint.child} in {link.joint.parent} is unknown: joint "
+        f"'{link.joint.name}' is floating, so robot_state_publisher skips it, and another node "
+        "must publish it"
         for link in lost
     ]
     first = lost[0].joint
     return tuple(why), (
         (
-            "ask a session or a recording in which that is published, or publish it:",
+            "use a session or a recording with this transform, or publish it:",
             static_publisher(first.parent, first.child),
         ),
     )
@@ -158,16 +158,16 @@ def _lost(lost: list[ChainLink]) -> Told:
 
 def _answered(links: tuple[ChainLink, ...], target: str, source: str, name: str) -> Told:
     if not links:
-        return ("a link is always where it is itself",), ()
+        return ("both frames are the same link",), ()
     moving = [link for link in links if link.joint.moves]
     if not moving:
-        return ("every joint on the way is fixed: this answers at all times",), ()
+        return ("every joint on the path is fixed: this lookup works at all times",), ()
     leaders = list(dict.fromkeys(link.leader for link in moving))
     open_ones = list(dict.fromkeys(link.leader for link in moving if not link.is_given))
-    are, move = ("is", "it moves") if len(leaders) == 1 else ("are", "they move")
+    move = "it moves" if len(leaders) == 1 else "they move"
     why = [
-        f"of a robot that runs this answers once joint states say where {several(leaders)} {are}: "
-        f"until then robot_state_publisher has no frame for what {move}"
+        f"on a running robot, this lookup works once joint states contain {several(leaders)}: "
+        f"until then, robot_state_publisher does not publish the frames that {move}"
     ]
     for link in moving:
         limits = link.joint.limits
@@ -185,9 +185,9 @@ def _answered(links: tuple[ChainLink, ...], target: str, source: str, name: str)
     if not open_ones:
         return tuple(why), ()
     why.append(
-        f"no position was given for {several(open_ones)}: at rest a joint is at zero where its "
-        "limits allow that, else in the middle of them"
+        f"no position was given for {several(open_ones)}: such a joint is at zero if its limits "
+        "allow zero, else in the middle of its limits"
     )
     words = ("tftool", "explain", target, source, name, "--joint", f"{open_ones[0]}=0.5")
     command = " ".join(map(shlex.quote, words))
-    return tuple(why), (("to say where a joint is:", command),)
+    return tuple(why), (("to set the position of a joint:", command),)

@@ -18,7 +18,7 @@ from tftool.doctor.model import Model
 from tftool.doctor.name_checks import wrong_type
 from tftool.doctor.ros_words import in_words, is_ros1
 from tftool.doctor.shape_checks import nothing_says
-from tftool.doctor.stamp_stream import NEVER, Heard, Track, last_part
+from tftool.doctor.stamp_stream import Heard, Track, last_part
 from tftool.doctor.trace import LinkVerdict, LookupTrace, TracedLink
 from tftool.doctor.value_checks import bad_quaternion
 from tftool.doctor.wording import dated, least_rate, moment, rounded_up, several, span
@@ -136,37 +136,37 @@ def _described(model: Model, name: str) -> str | None:
     if robot is None or name not in robot.links or name == robot.root:
         return None
     joint = robot.joint_above(name)
-    told = f"the robot's description has it, in {joint.parent} by joint '{joint.name}'"
+    told = f"the robot description defines it by joint '{joint.name}' of {joint.parent}"
     if joint.type == "floating":
         return f"{told}, which is floating: robot_state_publisher skips it"
     if not joint.moves:
-        return f"{told}, which is fixed: robot_state_publisher was not heard"
+        return f"{told}, which is fixed: nothing of robot_state_publisher arrived"
     leader = robot.leader(joint.name, states or ())
     if states is None or leader not in states:
-        return f"{told}, whose position is not known: no joint state names '{leader}'"
-    return f"{told}, and joint states say where that is: robot_state_publisher was not heard"
+        return f"{told}, whose position is unknown: no joint state contains '{leader}'"
+    return f"{told}, and joint states have its position: nothing of robot_state_publisher arrived"
 
 
 def _unknown(trace: LookupTrace, name: str) -> Reason:
     model = trace.model
     says = [heard for heard in model.heard if heard.frame.removeprefix("/") == name]
     slashed = [heard for heard in says if heard.frame != name]
-    why = [f"no transform names {name}"]
+    why = [f"no transform contains the frame {name}"]
     why += [
         f"{heard.topic} says {heard.frame if heard in slashed else 'it'}, {len(heard.stamps):,} "
         "times"
         for heard in says
     ]
     both = {trace.question.target, trace.question.source} - {name} - model.frames
-    why += [f"no transform names {other} either" for other in both]
+    why += [f"no transform contains {other} either" for other in both]
     described = _described(model, name)
     if described is not None:
         return Reason(Cause.UNKNOWN_FRAME, (*why, described))
     alike = alike_frames(model, name)
     remedies = []
     if alike:
-        why.append(f"in tf, {' and '.join(alike)} {'is' if len(alike) == 1 else 'are'} near")
-        mistyped = "" if says else f"ask for {alike[0]}, or "
+        why.append(f"tf has {' and '.join(alike)}, with a similar name")
+        mistyped = "" if says else f"look up {alike[0]}, or "
         remedies.append(Remedy("name", f"{mistyped}set frame_id of the driver to {alike[0]}"))
     elif len(model.trees) == 1 and last_part(name) in ("map", "odom", "world"):
         why.append(f"the root of all frames in tf is {model.trees[0].root}")
@@ -176,7 +176,7 @@ def _unknown(trace: LookupTrace, name: str) -> Reason:
         why += [join.why] if join.why else []
     if not remedies:
         where = "this recording" if model.evidence.recorded else f"this {model.evidence.kind}"
-        text = f"nothing in {where} publishes {name}: start the node that should, and record /tf"
+        text = f"nothing in {where} publishes {name}: start its publisher, and record /tf"
         remedies.append(Remedy("publisher", text))
     if slashed:
         text = f'and set frame_id to "{name}": no frame of tf2 begins with a slash'
@@ -201,10 +201,11 @@ def no_join(known: TraceResult) -> Reason:
     why = [
         f"{lesser.root} has no parent; its tree: {', '.join(sorted(lesser.frames))}{by}",
         f"the tree of {main.root}: {', '.join(sorted(main.frames))}",
-        "the join is missing" + (f"; {join.why}" if join is not None and join.why else ""),
+        "a transform between the trees is missing"
+        + (f"; {join.why}" if join is not None and join.why else ""),
     ]
     remedy = Remedy("join", fix.text, fix.command)
-    return Reason(Cause.SPLIT, tuple(why), (remedy,), ("a timeout: nothing publishes the join",))
+    return Reason(Cause.SPLIT, tuple(why), (remedy,), ("a timeout: nothing publishes it",))
 
 
 def works(known: TraceResult) -> Reason:
@@ -216,8 +217,8 @@ def works(known: TraceResult) -> Reason:
             return Reason(
                 Cause.LOOP,
                 (
-                    "it answers, but the frames hang in a circle: what walks to the root fails, "
-                    "and the other way round may mean another pose",
+                    "the lookup works, but the frames form a loop: code that searches the root "
+                    "fails, and the other way around the loop may give another pose",
                 ),
                 (Remedy("publisher", "publish one direction only"),),
             )
@@ -226,8 +227,9 @@ def works(known: TraceResult) -> Reason:
     return Reason(
         Cause.WORKS,
         (
-            "this lookup works. If yours refuses: is there a listener, does the callback that "
-            "waits block its executor, had the buffer time to fill?",
+            "this lookup works. If it fails in your node, check: does the node have a "
+            "TransformListener, does the waiting callback block the executor, did the buffer have "
+            "time to fill?",
         ),
     )
 
@@ -260,8 +262,8 @@ def _dropped_by_ros1(known: TraceResult) -> Reason | None:
         squares = track.squares[track.usable]
         if len(squares) and np.abs(squares - 1.0).min() > bad_quaternion.limits["length"]:
             why = (
-                f"ROS 2 answers, but ROS 1 drops {track.name}: its rotation has the length "
-                f"{math.sqrt(squares[0]):.4g} instead of 1"
+                f"the lookup works in ROS 2, but ROS 1 drops {track.name}: its rotation has the "
+                f"length {math.sqrt(squares[0]):.4g} instead of 1"
             )
             cure = "let its publisher normalise the rotation"
             return Reason(Cause.WORKS, (why,), (Remedy("publisher", cure),))
@@ -272,13 +274,13 @@ def refusing_link(known: TraceResult) -> Reason:
     """Return the reason why an edge of the path has no data at the lookup's time."""
     trace = known.trace
     if known.refusing is None or known.way is None:
-        return Reason(Cause.LATE, ("tf2 refuses, although every link answers",))
+        return Reason(Cause.LATE, ("tf2 refuses the lookup, although every link has data",))
     link, track = known.links[known.refusing], known.way[known.refusing]
     if track.static:
         late = int(track.logs[0]) - trace.asked
         return Reason(
             Cause.LATE,
-            (f"the static {link.name} arrives {span(late)} after the question",),
+            (f"the static transform {link.name} arrives {span(late)} after the lookup",),
             (_timeout(known, None),),
         )
     if _is_simulated(trace.moment) != _is_simulated(int(track.sorted_stamps[-1])):
@@ -289,9 +291,9 @@ def refusing_link(known: TraceResult) -> Reason:
         at = int(track.sorted_stamps[0])
         return Reason(
             Cause.SINGLE,
-            (f"{link.name} was sent once, at {moment(at)}: one sample answers for its own stamp",),
+            (f"{link.name} was sent once, at {moment(at)}: lookups at other times fail",),
             (Remedy("publisher", "send it with a StaticTransformBroadcaster (on /tf_static)"),),
-            ("a timeout: no second sample comes",),
+            ("a timeout: no second sample will arrive",),
         )
     if trace.stamp == LATEST and (ended := _ended(known)) is not None:
         return ended
@@ -327,10 +329,10 @@ def _two_clocks(link: TracedLink, track: Track, trace: LookupTrace) -> Reason:
         Cause.CLOCK_MIXTURE,
         (
             f"{link.name} is stamped with {clock}: {dated(stamp)}",
-            f"the question is on {other}: {dated(trace.moment)}",
+            f"the requested time is on {other}: {dated(trace.moment)}",
         ),
         (Remedy("clock", text),),
-        ("a timeout, a larger cache: the two clocks never meet",),
+        ("a timeout, a larger cache: stamps of two clocks never match",),
     )
 
 
@@ -352,7 +354,7 @@ def _on_another_clock(model: Model, path: Sequence[Track]) -> Reason | None:
             "other clocks: no lookup across the two clocks can succeed",
         ),
         (Remedy("clock", in_words(cure_of_offset(model).text, model.words)),),
-        ("a timeout, a larger cache: the two clocks never meet",),
+        ("a timeout, a larger cache: stamps of two clocks never match",),
     )
 
 
@@ -365,7 +367,10 @@ def _pruned(known: TraceResult, link: TracedLink, track: Track) -> Reason:
     before = track.sorted_stamps[track.sorted_stamps <= trace.moment]
     least = newest - int(before[-1]) if len(before) else needed
     advised = math.ceil((least + NANOSECONDS) / NANOSECONDS)
-    why = f"the buffer keeps {span(trace.cache)}, and {link.name} is {span(needed)} further on"
+    why = (
+        f"the buffer keeps {span(trace.cache)}, and the newest sample of {link.name} is "
+        f"{span(needed)} newer than the requested time"
+    )
     if trace.heard is not None and trace.after is not None:
         why = (
             f"{trace.heard.topic} arrives {span(trace.after)} after its stamp; the buffer keeps "
@@ -377,26 +382,30 @@ def _pruned(known: TraceResult, link: TracedLink, track: Track) -> Reason:
         (
             Remedy(
                 "cache",
-                f"keep more, at least {span(least)}:",
+                f"use a larger cache, at least {span(least)}:",
                 trace.model.words["buffer"].format(needed=advised),
                 least,
                 advised * NANOSECONDS,
             ),
-            Remedy("skip", "or look up when the measurement arrives, and keep the result"),
+            Remedy(
+                "skip",
+                "or look up the transform when the measurement arrives, and store the result",
+            ),
         ),
-        ("a timeout: what was dropped does not come back",),
+        ("a timeout: dropped samples do not arrive again",),
     )
 
 
 def _before_start(known: TraceResult, link: TracedLink, track: Track, first: Stamp) -> Reason:
     trace = known.trace
     why = [
-        f"{link.name} begins {span(first - trace.moment)} after the question, at {moment(first)}"
+        f"{link.name} begins {span(first - trace.moment)} after the requested time, at "
+        f"{moment(first)}"
     ]
     if track.median_latency < 0:
         why.append(
-            f"it is dated {span(-track.median_latency)} ahead (transform_tolerance): nothing "
-            "before its first stamp can ever be placed through it"
+            f"its stamps are {span(-track.median_latency)} ahead (transform_tolerance): every "
+            "lookup before its first stamp fails"
         )
     lost = ""
     if trace.heard is not None:
@@ -405,8 +414,8 @@ def _before_start(known: TraceResult, link: TracedLink, track: Track, first: Sta
     return Reason(
         Cause.BEFORE_START,
         tuple(why),
-        (Remedy("skip", f"ask for {moment(first)} or later{lost}"),),
-        ("a timeout, a larger cache: older data will not come",),
+        (Remedy("skip", f"look up {moment(first)} or later{lost}"),),
+        ("a timeout, a larger cache: no older data will arrive",),
     )
 
 
@@ -427,11 +436,11 @@ def _after_end(link: TracedLink, trace: LookupTrace, last: Stamp) -> Reason:
     return Reason(
         Cause.AFTER_END,
         (
-            f"the {ended} ends with {link.name} at {moment(last)}, "
-            f"{span(trace.moment - last)} before the question",
+            f"the last sample of {link.name} in the {ended} is at {moment(last)}, "
+            f"{span(trace.moment - last)} before the requested time",
         ),
-        (Remedy("skip", f"ask for {moment(last)} or earlier"),),
-        ("a timeout: nothing comes any more",),
+        (Remedy("skip", f"look up {moment(last)} or earlier"),),
+        ("a timeout: no further sample will arrive",),
     )
 
 
@@ -440,10 +449,10 @@ def _stopped(link: TracedLink, trace: LookupTrace, last: Stamp) -> Reason:
         Cause.STOPPED,
         (
             f"{link.name} ended at {moment(last)}, {span(trace.moment - last)} before the "
-            "question, and nothing follows",
+            "requested time, and no sample follows",
         ),
         (Remedy("publisher", "check whether its publisher still runs"),),
-        ("a timeout: nothing comes any more",),
+        ("a timeout: no further sample will arrive",),
     )
 
 
@@ -460,14 +469,17 @@ def _ended(known: TraceResult) -> Reason | None:
         since = trace.asked - int(track.logs[-1])
         if int(track.sorted_stamps[-1]) == trace.moment and since > trace.cache:
             why = (
-                f"{track.name} ended at {moment(trace.moment)}, {span(since)} before the question; "
-                "the latest time that all links have is that one, and the others have dropped it"
+                f"{track.name} ended at {moment(trace.moment)}, {span(since)} before the lookup; "
+                "this is the latest time common to all links, but the other links have dropped it"
             )
             return Reason(
                 Cause.STOPPED,
                 (why,),
                 (Remedy("publisher", "check whether its publisher still runs"),),
-                ("a timeout: nothing comes any more", "a larger cache: it keeps an old pose"),
+                (
+                    "a timeout: no further sample will arrive",
+                    "a larger cache: it keeps an old pose",
+                ),
             )
     return None
 
@@ -479,7 +491,7 @@ def _late(known: TraceResult, link: TracedLink, track: Track) -> Reason:
     step = int(stamps[after] - stamps[after - 1]) if after else 0
     heard = trace.heard
     is_gap = step > max(5 * track.period, NANOSECONDS // 2)
-    why = f"{link.name} comes every {span(track.period)}, {span(link.latency)} after its stamp"
+    why = f"{link.name} arrives every {span(track.period)}, {span(link.latency)} after its stamp"
     cause = Cause.LATE
     if is_gap:
         cause = Cause.GAP
@@ -509,9 +521,9 @@ def _late(known: TraceResult, link: TracedLink, track: Track) -> Reason:
                 )
             )
     useless = [
-        f"latest instead of the stamp: {trace.question.source} would be placed where it was "
-        f"{span(link.short_by)} before",
-        "a larger cache: what is missing has not come yet",
+        f"the latest time instead of the stamp: the pose of {trace.question.source} would be "
+        f"{span(link.short_by)} old",
+        "a larger cache: the missing sample has not arrived yet",
     ]
     return Reason(cause, (why,), tuple(remedies), tuple(useless))
 
@@ -530,7 +542,7 @@ def _timeout(known: TraceResult, heard: Heard | None) -> Remedy:
     """
     trace = known.trace
     if known.begin is None:
-        text = "a timeout does not help: by the time the one end comes, the other is pruned"
+        text = "a timeout does not help: one side leaves the buffer before the other arrives"
         return Remedy("timeout", text, possible=False)
     least = max(0, known.begin - trace.asked)
     advised = rounded_up(least)
@@ -539,8 +551,8 @@ def _timeout(known: TraceResult, heard: Heard | None) -> Remedy:
     if heard is not None and waits is not None and len(waits.served):
         p95, worst = waits.serves(95), int(waits.served.max())
         text += (
-            f"; {p95 / 1e6:.1f} ms serve 95 % of {heard.topic}, {worst / 1e6:.1f} ms all "
-            f"{int(np.count_nonzero(waits.waits != NEVER))} that are ever served"
+            f"; {p95 / 1e6:.1f} ms are enough for 95 % of {heard.topic}, {worst / 1e6:.1f} ms for "
+            f"all {len(waits.served):,} messages whose lookup can succeed"
         )
     return Remedy("timeout", text, "", least, advised)
 

@@ -21,7 +21,7 @@ SCHEMA = "tftool.explain/1"
 _WORDS = {
     LinkVerdict.ANSWERS: "answers",
     LinkVerdict.FORWARD: "newest is {} too old",
-    LinkVerdict.BACKWARD: "begins {} after the question",
+    LinkVerdict.BACKWARD: "begins {} after the requested time",
     LinkVerdict.PRUNED: "the needed sample was dropped; the oldest sample left is {} later",
 }
 
@@ -199,7 +199,7 @@ def _held(link: TracedLink, base: Stamp) -> str:
 def _refusal(link: TracedLink) -> str:
     if link.verdict is LinkVerdict.NO_DATA:
         return (
-            "one sample answers for its own stamp only" if link.count else "no sample received yet"
+            "one sample is valid only at its own stamp" if link.count else "no sample received yet"
         )
     if abs(link.short_by) > SIMULATED_BELOW:
         return f"{span(link.short_by)} apart: stamps of another clock"
