@@ -29,7 +29,9 @@ def test_tree_shows_the_links_of_a_description(tftool, robot):
     assert result.status == 0
     assert "└── arm" in result.out
     assert "└── lamp" in result.out
-    assert f"at rest, 1 of them: 'tftool info {robot}' says where." in result.err
+    assert (
+        f"Default positions are used for 1 joint: 'tftool info {robot}' shows them." in result.err
+    )
 
 
 def test_echo_answers_between_two_links(tftool, robot):

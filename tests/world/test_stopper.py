@@ -112,7 +112,8 @@ def test_a_node_that_holds_the_loop_is_named_and_the_second_signal_ends_it(start
 
     line = line_with("while True", program.text)
     assert said == (
-        f"tftool: node 'busy' (busy.py:{line}) has not returned for 2 s; Ctrl-C again ends it\n"
+        f"tftool: node 'busy' (busy.py:{line}) has not returned for 2 s; "
+        "a second Ctrl-C ends the process\n"
     )
     assert program.ended() == (INTERRUPTED, "", "")
 

@@ -108,9 +108,9 @@ def construct(node: yaml.Node, loader: Any = yaml.SafeLoader) -> Any:
     except (ValueError, ArithmeticError, AttributeError, TypeError) as error:
         # PyYAML raises these for a value with a wrong tag: !!timestamp x.
         tag = str(node.tag).rpartition(":")[2]
-        problem = f"a value is not the {tag} that it is tagged as"
+        problem = f"a value has the tag !!{tag}, but is not of this type"
         if not isinstance(node, yaml.ScalarNode):
-            problem = "a value is not what it is tagged as"
+            problem = "a value does not fit its tag"
         raise yaml.MarkedYAMLError(problem=problem, problem_mark=node.start_mark) from error
     finally:
         maker.dispose()

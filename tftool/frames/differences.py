@@ -371,7 +371,7 @@ def _moving_offset(
     new = second.buffer.lookup_transforms(parent, child, stamps + shift, missing="nan")
     both = old.valid & new.valid
     if not both.any():
-        return None, f"the frame and '{parent}' are never connected in A and in B at one time"
+        return None, f"at no common time is the frame connected with '{parent}' in both A and B"
     old, new, stamps = old[both], new[both], stamps[both]
     millimetres = 1000.0 * np.linalg.norm(new.translations - old.translations, axis=1)
     degrees = np.degrees(batch.angles_between(old.rotations, new.rotations))

@@ -4,7 +4,7 @@ from collections.abc import Collection, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from tftool.base.errors import UsageError
-from tftool.base.plain_text import visible
+from tftool.base.plain_text import count, visible
 from tftool.frames.frames import Frames
 from tftool.frames.source_options import DescriptionOptions, RecordingOptions
 from tftool.recordings.find import Found, Kind
@@ -44,8 +44,8 @@ def joints_at_rest(robot: "Robot", given: Collection[str], name: str) -> Iterato
         for joint in robot.joints.values()
     )
     if at_rest:
-        word = visible(name)
-        yield f"Joints that move are at rest, {at_rest} of them: 'tftool info {word}' says where."
+        joints = count(at_rest, "joint")
+        yield f"Default positions are used for {joints}: 'tftool info {visible(name)}' shows them."
 
 
 def read_frames(

@@ -137,7 +137,8 @@ class ActionParts:
         if self._drop_ended(len(self._undecided)) <= 0:
             return True
         self._warn(
-            f"'{self._name}': {KEPT} goals run, the most allowed: more are refused until one ends."
+            f"'{self._name}': {KEPT} goals run, which is the maximum: further goals are refused "
+            "until one ends."
         )
         return False
 

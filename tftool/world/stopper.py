@@ -185,7 +185,9 @@ class Stopper:
         if self._interrupted_at is not None and now >= self._interrupted_at + PATIENCE:
             self._interrupted_at = None
             for name in self._not_returned():
-                _say(f"{name} has not returned for {PATIENCE:g} s; Ctrl-C again ends it")
+                _say(
+                    f"{name} has not returned for {PATIENCE:g} s; a second Ctrl-C ends the process"
+                )
         if self._raised_at is not None:
             if now >= self._raised_at + PATIENCE:
                 for name in self._not_returned():

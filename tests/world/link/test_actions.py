@@ -78,7 +78,9 @@ def test_a_goal_under_way_is_never_forgotten_and_more_than_are_kept_are_refused(
         assert [await stranger.send(number) for number in range(1, 6)] == [True] * 3 + [False] * 2
         assert len(stranger.goals) == 3
         (told,) = [record.text for record in world.log.records if "goals" in record.text]
-        assert told == "'turn': 3 goals run, the most allowed: more are refused until one ends."
+        assert told == (
+            "'turn': 3 goals run, which is the maximum: further goals are refused until one ends."
+        )
 
         assert await stranger.cancel(1) == 0
         assert stranger.goals[0].cancel_requested

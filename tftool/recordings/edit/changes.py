@@ -391,7 +391,9 @@ class Changer:
         if new_parent is not None:
             moved = self._reparented(link, row, static=static)
             if moved is None:
-                self.counts["transforms left out, as where the new parent is is not known"] += 1
+                self.counts[
+                    "transforms left out, because the pose in the new parent is unknown"
+                ] += 1
                 return None
             self.counts["transforms given another parent"] += 1
             row = row._replace(parent=new_parent, numbers=moved)

@@ -110,7 +110,7 @@ class Inbox:
 
     def _report(self, callback: Callable[..., object], error: Exception) -> None:
         if self._loop is not None:
-            told = f"{callback!r} failed with what came in over the link"
+            told = f"{callback!r} failed with data from another process"
             self._loop.call_exception_handler({"message": told, "exception": error})
 
 
