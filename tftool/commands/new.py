@@ -55,7 +55,7 @@ class NewOptions(Command, shares=False):
         default="follower",
         metavar="STEP",
     )
-    exercise: bool = flag("Replace the key lines of the step's nodes by TODO, for you to write.")
+    exercise: bool = flag("Replace the important lines of the nodes by TODO, as an exercise.")
     node_name: str = option(
         "Make a package with one empty node of this name, without a step of the tutorial.",
         default="",

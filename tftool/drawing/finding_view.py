@@ -246,7 +246,7 @@ def brief(diagnosis: Diagnosis) -> str:
     ids = ", ".join(dict.fromkeys(one.id for one in causes if one.severity is not _CALM))
     if not ids:
         return "Doctor: nothing is wrong."
-    return f"Doctor: {counted(causes)} ({ids}). 'tftool doctor' on it tells more."
+    return f"Doctor: {counted(causes)} ({ids}). 'tftool doctor' shows the details."
 
 
 def _folded(diagnosis: Diagnosis) -> dict[str, list[str]]:

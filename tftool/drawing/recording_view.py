@@ -125,7 +125,7 @@ def _robot(recording: Recording, robot: Robot) -> str:
     )
     if found.still or found.moving:
         text += (
-            f"; {count(len(found.still) + len(found.moving), 'frame')} from it that tf lacks, "
+            f"; {count(len(found.still) + len(found.moving), 'frame')} only in the description, "
             f"{len(found.moving)} of them moved by joint states"
         )
     if found.gaps:

@@ -113,7 +113,7 @@ class _OfRecordings:
     )
     tf_topic: list[str] | None = option(
         "Read only the transforms of this topic, such as /r1/tf. Repeat the option for more "
-        "robots: a frame name that several robots use gets the namespace as prefix.",
+        "robots; names of frames that several robots use then get a prefix, the namespace.",
         metavar="TOPIC",
         panel=RECORDING,
     )
