@@ -662,3 +662,33 @@ def test_a_transform_that_falls_behind_for_a_time_is_a_warning_beside_data_in_ti
             finding = found(made, "stale-stamp")
             assert finding.message.startswith("block in world is dated up to 600 ms before")
             assert "/scan, base_link in odom arrived in time" in finding.fixes[0].text
+
+
+def test_a_backlog_that_arrives_when_the_recorder_starts_is_not_late():
+    made = robot()
+    kind = "geometry_msgs/PoseStamped"
+    made.hears("/pose", "odom", 30.0, kind, latency=0.001)
+    assert "stale-stamp" not in ids(made, notes=True)
+    for tick in range(26):
+        # All messages of the second before the start arrive within 10 ms.
+        at = -1.0 + tick / 30.0
+        made.hears("/pose", "odom", 30.0, kind, begin=at, end=at + 0.03, latency=0.01 - at)
+    assert "stale-stamp" not in ids(made, notes=True)
+
+
+def test_a_velocity_without_a_frame_is_a_note():
+    for kind, severity in (
+        ("geometry_msgs/TwistWithCovarianceStamped", Severity.NOTE),
+        ("geometry_msgs/PoseStamped", Severity.WARNING),
+    ):
+        made = robot()
+        made.hears("/estimate", "", kind=kind)
+        assert found(made, "empty-frame").severity is severity
+
+
+def test_two_values_of_a_static_that_arrive_together_are_kept_by_arrival():
+    for apart, consequence in ((0.01, "reaches it last"), (3.0, "when the new one arrives")):
+        made = robot()
+        made.static("base_link", "camera")
+        made.static("base_link", "camera", (0.2, 0.0, 0.2, *NO_TURN), at=apart)
+        assert consequence in found(made, "static-changed").consequence

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from tests.doctor.judged import found, ids, turned
-from tests.doctor.robots import NO_TURN, Pose, Robot, robot
+from tests.doctor.robots import NO_TURN, Pose, Robot, drives, robot
 from tftool.doctor.findings import Confidence, Severity
 
 
@@ -108,3 +108,40 @@ def test_a_pose_on_two_topics_does_not_arrive_out_of_order():
         made.sent("world", "hat", at + 0.001, (at, 0.0, 0.0, *NO_TURN), node="/mocap")
         made.sent("world", "hat", at, (at, 0.0, 0.0, *NO_TURN), topic="/hat", node="/mocap")
     assert "out-of-order" not in ids(made, notes=True)
+
+
+def flips(angle: float, *, length: float = 0.025, every: float = 100.0) -> Robot:
+    """Return a turning body whose rotation is wrong for some samples from 3 s on."""
+
+    def pose(t: float) -> Pose:
+        wrong = t >= 3.0 and (t - 3.0) % every < length
+        return (0.1 * t, 0.0, 1.7, *turned(0.1 * t + (angle if wrong else 0.0)))
+
+    made = Robot()
+    made.moving("world", "drone", 100.0, pose)
+    return made
+
+
+@pytest.mark.parametrize(("every", "often"), [(100.0, ""), (2.0, ", 3 times")])
+def test_samples_between_a_jump_and_the_jump_back_are_outliers(every, often):
+    made = flips(2.8, every=every)
+    assert ids(made) == ["outlier"]
+    finding = found(made, "outlier")
+    # Half a turn and less: 2.8 rad are 160.4 degrees.
+    assert finding.message == f"drone in world jumps 160° away for 30 ms, and back{often}"
+    assert "3 samples at" in finding.evidence[0]
+
+
+@pytest.mark.parametrize(("angle", "length"), [(0.4, 0.025), (2.8, 1.0), (2.8, 100.0)])
+def test_small_long_and_lasting_jumps_are_no_outliers(angle, length):
+    assert "outlier" not in ids(flips(angle, length=length), notes=True)
+
+
+def test_samples_that_are_stamped_on_arrival_in_bunches_are_a_note():
+    for pause, told in ((0.001, True), (0.0067, False)):
+        made = robot()
+        for tick in range(100):
+            for number in range(3):
+                at = 0.02 * tick + pause * number
+                made.sent("world", "cap", at, drives(at), latency=0.001)
+        assert ("bunched-stamps" in ids(made, notes=True)) is told

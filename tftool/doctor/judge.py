@@ -15,6 +15,7 @@ from tftool.base.stamps import CACHE_TIME, Duration, Stamp
 from tftool.buffer.buffer import Buffer
 from tftool.doctor import clock_checks as clocks
 from tftool.doctor import coverage_checks as coverage
+from tftool.doctor import delay_checks as delays
 from tftool.doctor import description_checks as description
 from tftool.doctor import gap_checks as gaps
 from tftool.doctor import heard_names
@@ -43,7 +44,7 @@ if TYPE_CHECKING:
 CHECKS: Mapping[str, Check] = {
     check.id: check
     for room in (
-        *(publishers, shape, heard_names, names, clocks, laps, stamps),
+        *(publishers, shape, heard_names, names, clocks, laps, stamps, delays),
         *(gaps, outages, coverage, values, poses, odometry, mounts, description),
     )
     for check in room.check.checks

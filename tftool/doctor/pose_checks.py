@@ -5,13 +5,14 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from tftool.base.plain_text import count
 from tftool.base.stamps import NANOSECONDS
 from tftool.doctor.check import checks_of, hit_of
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
 from tftool.doctor.gap_checks import is_detection
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_stream import Mask, Places, Track
-from tftool.doctor.wording import moment, several, span
+from tftool.doctor.wording import metres, moment, several, span
 from tftool.recordings.contract import percentile
 
 check = checks_of(Area.VALUES)
@@ -185,3 +186,103 @@ _SLOW = 0.1
 
 _SHORT = 1e-3
 """Minimum time between two samples, seconds, that is used for a speed."""
+
+
+@check(
+    "outlier",
+    Severity.WARNING,
+    rule="a pose jumps by more than {metres:g} m or {radians:g} rad, and by {times:g} times the "
+    "95 % quantile of all steps. At most {samples:g} samples and {seconds:g} s later, a second "
+    "such jump leads back: the rest is at most {back:%} of the jump. Such jumps are at most a "
+    "share of {share:g} of all steps. A note for a part of a robot if no sensor message is in "
+    "its frame. Not reported for a localiser",
+    headline="{named} for {longest:span}, and back{often}",
+    detail="{edge}: {wrong} at {at:moment}, {jump:m} and {turn:deg} away{others}",
+    consequence="a lookup at these times gets a wrong pose",
+    causes=(
+        "a motion capture system that mistakes its markers for each other",
+        "a detection of a symmetric object",
+    ),
+    limits={
+        "metres": 0.25,
+        "radians": 0.5,
+        "times": 8.0,
+        "samples": 10,
+        "seconds": 0.1,
+        "back": 0.3,
+        "share": 0.02,
+    },
+    because_of=(
+        ("anything", "time-jump-back"),
+        ("edge", "publisher-conflict two-parents placeholder-pose"),
+    ),
+)
+def outlier(model: Model, limits: Limits) -> Iterator[Hit]:
+    """A frame jumps away for a few samples, and back."""
+    for track in model.dynamic:
+        spans = [] if track.is_localisation else outliers(track, limits)
+        if not spans:
+            continue
+        places = track.by_stamp
+        begins, ends = (places[list(ones)] for ones in zip(*spans, strict=True))
+        lengths = (track.stamps[ends] - track.stamps[begins]).tolist()
+        worst = int(np.argmax(lengths))
+        begin, end = spans[worst]
+        before, first = places[begin - 1 : begin], places[begin : begin + 1]
+        jump, turn = float(track.apart(before, first)[0]), float(track.turned(before, first)[0])
+        far = metres(jump) if jump > limits["metres"] else f"{np.degrees(turn):.3g}°"
+        times = [moment(stamp) for stamp in track.stamps[begins].tolist()]
+        yield hit_of(
+            track,
+            {
+                "named": f"{track.name} jumps {far} away",
+                "longest": lengths[worst],
+                "often": f", {len(spans)} times" if len(spans) > 1 else "",
+                "wrong": count(end - begin, "sample"),
+                "at": int(track.stamps[begins[worst]]),
+                "jump": jump,
+                "turn": turn,
+                "others": f"; also at {several(times[:worst] + times[worst + 1 :])}"
+                if len(times) > 1
+                else "",
+            },
+            since=int(track.logs[begins[0]]),
+            until=int(track.logs[ends[-1]]),
+            count=len(spans),
+            severity=Severity.NOTE if model.is_minor(track) else None,
+        )
+
+
+def outliers(track: Track, limits: Limits) -> list[tuple[int, int]]:
+    """Return the runs of samples between a jump away and a jump back.
+
+    Returns:
+        Indices into `track.by_stamp`: the first wrong sample, and the first sample after the run.
+    """
+    places = track.by_stamp
+    some, others = places[:-1], places[1:]
+    apart = track.strides
+    spins = track.has_turns(some, others, limits["radians"])
+    if len(places) < 3 or not (spins or (apart > limits["metres"]).any()):
+        return []
+    turned = track.turned(some, others)
+    is_far = (apart > max(limits["metres"], limits["times"] * percentile(apart, 95))) | (
+        turned > max(limits["radians"], limits["times"] * percentile(turned, 95))
+    )
+    steps = np.flatnonzero(is_far)
+    if len(steps) > max(2, limits["share"] * len(apart)):
+        return []
+    found: list[tuple[int, int]] = []
+    for out, back in zip(steps[:-1].tolist(), steps[1:].tolist(), strict=True):
+        before, after = places[out : out + 1], places[back + 1 : back + 2]
+        took = (track.stamps[after] - track.stamps[before])[0]
+        rest = track.apart(before, after)[0], track.turned(before, after)[0]
+        if (
+            back - out <= limits["samples"]
+            and took <= limits["seconds"] * NANOSECONDS
+            and rest[0] <= limits["back"] * max(apart[out], limits["metres"])
+            and rest[1] <= limits["back"] * max(turned[out], limits["radians"])
+            and not (found and found[-1][1] > out)
+        ):
+            found.append((out + 1, back + 1))
+    return found

@@ -299,8 +299,7 @@ def dynamic_on_static(model: Model, limits: Limits) -> Iterator[Hit]:
     rule="a static has 2 to {values:g} different values (apart by {metres:g} m or {radians:g} rad)",
     headline="{where} {concerned:was|were} published again with another value",
     detail="{edge}: {values} values, {moved:m} and {turned:deg} apart: {shown}",
-    consequence="everything placed with the old value moves when the new one arrives, also in the "
-    "past",
+    consequence="{so}",
     fixes=(Fix("find its publishers: `{publishers} /tf_static` lists them"),),
     causes=(
         "two launch files",
@@ -338,6 +337,7 @@ def _values_of_statics(model: Model, limits: Limits) -> Iterator[tuple[int, Hit]
         if not changes:
             continue
         first = np.full(len(kept), kept[0])
+        is_sudden = track.logs[changes[-1]] - track.logs[kept[0]] < NANOSECONDS
         yield (
             len(kept),
             hit_of(
@@ -349,6 +349,10 @@ def _values_of_statics(model: Model, limits: Limits) -> Iterator[tuple[int, Hit]
                     "shown": ", then ".join(
                         " ".join(f"{n:.4g}" for n in track.translations[one]) for one in kept[:3]
                     ),
+                    "so": "each listener keeps the value that reaches it last"
+                    if is_sudden
+                    else "everything placed with the old value moves when the new one arrives, "
+                    "also in the past",
                 },
                 since=int(track.logs[changes[0]]),
                 until=int(track.logs[changes[-1]]),

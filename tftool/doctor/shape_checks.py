@@ -9,7 +9,7 @@ from tftool.doctor.check import REP105, checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
 from tftool.doctor.missing_joins import base_of, mount_command, proposed_join
 from tftool.doctor.model import Limits, Model, Tree
-from tftool.doctor.stamp_stream import PLACED, Track, last_part, overlap
+from tftool.doctor.stamp_stream import PLACED, Heard, Track, last_part, overlap
 from tftool.doctor.wording import several
 
 check = checks_of(Area.SHAPE)
@@ -249,8 +249,8 @@ def self_transform(model: Model, limits: Limits) -> Iterator[Hit]:
     "empty-frame",
     Severity.ERROR,
     rule="the name of a frame is empty. An error in a transform, a warning in the header of a "
-    "message with a position. A note in a transform on a topic that tf2 does not read, and in "
-    "messages without a stamp",
+    "message with a position. A note in a transform on a topic that tf2 does not read, in "
+    "messages without a stamp, and in velocities, accelerations and forces without a position",
     headline="no frame name in {named}",
     detail="{what}: {detail}, {count:times}",
     consequence="{so}",
@@ -294,8 +294,7 @@ def empty_frame(model: Model, limits: Limits) -> Iterator[Hit]:
             frames=("",),
             since=int(heard.logs[0]) if len(heard.logs) else None,
             count=len(heard.stamps),
-            # Commands between two nodes have neither a stamp nor a frame.
-            severity=Severity.WARNING if heard.stamps.any() else Severity.NOTE,
+            severity=Severity.WARNING if _is_placed(heard) else Severity.NOTE,
             fixes=(_name_it(model, heard.topic),),
             facts={
                 "what": heard.topic,
@@ -306,6 +305,13 @@ def empty_frame(model: Model, limits: Limits) -> Iterator[Hit]:
                 "so": "such a message cannot be placed",
             },
         )
+
+
+def _is_placed(heard: Heard) -> bool:
+    """Whether programs look up the place of a topic's messages."""
+    # Commands between two nodes have neither a stamp nor a frame.
+    is_vector = last_part(heard.type).startswith(("Twist", "Accel", "Wrench", "Vector3"))
+    return bool(heard.stamps.any()) and not is_vector
 
 
 def _name_it(model: Model, topic: str) -> Fix:

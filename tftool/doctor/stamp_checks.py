@@ -7,11 +7,10 @@ import numpy as np
 
 from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, seconds
 from tftool.doctor.check import checks_of, hit_of, threads
-from tftool.doctor.findings import STALE_AFTER, Area, Fact, Fix, Hit, Severity
+from tftool.doctor.findings import Area, Fact, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.ros_words import is_ros1
-from tftool.doctor.stamp_stream import Heard, Mask, Places, Track, last_part, unsorted_share
-from tftool.doctor.wording import moment, several, span
+from tftool.doctor.stamp_stream import Heard, Track, unsorted_share
 from tftool.recordings.contract import Stamps, percentile
 
 check = checks_of(Area.CLOCKS)
@@ -370,231 +369,36 @@ def out_of_order(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 @check(
-    "stale-stamp",
+    "bunched-stamps",
     Severity.NOTE,
-    rule="the median latency is above {transforms:g} s for a transform or {messages:g} s for "
-    "messages. A warning if another topic shows where the delay arises: a topic with the same "
-    "stamps, or the topic from which the late topic is computed, arrives in time. A warning "
-    "also for a transform with a latency above {odometry:g} s whose poses arrive in time in "
-    "Odometry messages. A warning also if one sample in ten of a moving transform is later "
-    "than {tenth:g} s and {often:g} times the median, while other data arrives in time; and "
-    "if one in twenty of regular poses is later than {burst:g} s and {rarely:g} times the median",
-    headline="{where} {concerned:is|are} dated {upto}{late:span} before {concerned:its|their} "
-    "arrival",
-    detail="{what}: {late:span} late ({of}){varies}",
-    consequence="lookups at the present time fail, or use older data; in rviz the frame lags or "
-    "disappears",
-    causes=(
-        "the stamp is copied from an old measurement",
-        "the publisher's clock is behind",
-        "a slow network",
-    ),
-    links=threads("cartographer-project/cartographer_ros#143"),
-    limits={
-        "transforms": STALE_AFTER,
-        "messages": 2.0,
-        "odometry": 0.2,
-        "tenth": 0.25,
-        "often": 4.0,
-        "burst": 0.2,
-        "rarely": 8.0,
-    },
+    rule="half of the steps between the stamps of a moving transform with {samples:g} samples or "
+    "more are below {short:g} times the mean step, one in twenty is above {long:g} times the mean "
+    "step, and the samples arrive within {seconds:g} s of their stamps",
+    headline="stamps of {where} come in bunches",
+    detail="{edge}: {share:%} of the steps are below {short:span}, one in twenty is {long:span} or "
+    "more; the mean is {mean:span}",
+    consequence="an interpolated pose is off by up to such a step in time",
+    causes=("the publisher stamps its data on arrival, and sends it in bunches",),
+    limits={"samples": 100, "short": 0.3, "long": 2.5, "seconds": 0.005},
     needs=("log times",),
-    because_of=(
-        ("anything", "time-jump-back"),
-        ("stream", "clock-mixture"),
-        ("stream", "cache-short"),
-        ("stream", "clock-offset"),
-    ),
 )
-def stale_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Transforms or messages are stamped long before they arrive."""
+def bunched_stamps(model: Model, limits: Limits) -> Iterator[Hit]:
+    """Several samples are stamped at nearly the same time, followed by a pause."""
     for track in model.dynamic:
-        least = limits["transforms"] * NANOSECONDS
-        if track.is_localisation:
-            least = max(least, track.period)
-        if len(track.stamps) < 2 or stands_still(track):
+        if len(track.stamps) < limits["samples"] or not track.moves:
             continue
-        if (told := _in_time(model, track, limits["odometry"])) is not None:
-            yield told
-        elif track.median_latency > least:
-            yield _late(model, track)
-        elif (late := _falls_behind(model, track, limits)) is not None:
-            yield late
-    for heard in model.heard:
-        # A latched message may be old, and without motion an old message is as good as a new one.
-        if len(heard.stamps) < 3 or not heard.is_spatial or model.rests(heard.frame):
+        steps = np.diff(track.sorted_stamps)
+        mean = float(steps.mean())
+        share, long = float(np.mean(steps < limits["short"] * mean)), percentile(steps, 95)
+        delay = percentile(np.abs(track.latency), 90)
+        if share < 0.5 or long < limits["long"] * mean or delay > limits["seconds"] * NANOSECONDS:
             continue
-        if heard.median_latency > limits["messages"] * NANOSECONDS and not stands_still(heard):
-            yield _late(model, heard)
-    poses = [_falls_behind(model, heard, limits) for heard in model.heard]
-    # The latest of them is in the headline.
-    yield from sorted(filter(None, poses), key=lambda hit: -_most_late(hit))
-
-
-def _most_late(hit: Hit) -> int:
-    late = hit.facts["late"]
-    assert isinstance(late, int)
-    return late
-
-
-def _falls_behind(model: Model, track: Track | Heard, limits: Limits) -> Hit | None:
-    """Return a hit if some data of an edge or topic is late while other data arrives in time."""
-    if len(track.stamps) < _FEWEST_LATE:
-        return None
-    if isinstance(track, Track):
-        share, told, least, times = 90, "one in ten", limits["tenth"], limits["often"]
-        is_judged = track.moves and not track.is_localisation
-    else:
-        share, told, least, times = 95, "one in twenty", limits["burst"], limits["rarely"]
-        is_judged = _is_regular_pose(track)
-    usual, tenth = (int(percentile(track.latency, percent)) for percent in (50, share))
-    if not is_judged or tenth < max(least * NANOSECONDS, times * usual):
-        return None
-    late = np.flatnonzero(track.latency >= tenth)
-    others: list[Track | Heard] = [h for h in model.heard if h.is_spatial]
-    others += [one for one in model.dynamic if one is not track]
-    prompt = [
-        other.name
-        for other in others
-        if len(other.stamps) > _FEWEST_LATE
-        and 4 * max(abs(percentile(other.latency, percent)) for percent in (5, 95)) < tenth
-    ]
-    if not prompt:
-        return None
-    facts: dict[str, Fact] = {
-        "what": track.name,
-        "upto": "up to ",
-        "late": int(track.latency.max()),
-        "of": "at most",
-        "varies": f"; {told} {span(tenth)} or more, usually {span(usual)}",
-    }
-    when = f"from {moment(int(track.logs[late[0]]))} to {moment(int(track.logs[late[-1]]))}"
-    cure = f"look at its publisher and the network {when}: {several(prompt, 3)} arrived in time"
-    alone, group = isinstance(track, Track), "poses"
-    given = {"severity": Severity.WARNING, "count": len(late), "fixes": (Fix(cure),)}
-    return hit_of(track, facts, alone=alone, group=group, **given)
-
-
-def _is_regular_pose(heard: Heard) -> bool:
-    """Whether a topic has poses at a constant rate, such as those of a motion capture system."""
-    steps = np.diff(np.sort(heard.stamps))
-    is_pose = heard.type in ("geometry_msgs/PoseStamped", "geometry_msgs/PoseWithCovarianceStamped")
-    return is_pose and bool(np.mean(steps < 2 * np.median(steps)) > _REGULAR)
-
-
-_REGULAR = 0.95
-"""Minimum fraction of steps between stamps that are near the period of a regular topic."""
-
-_MEDIAN = {"upto": "", "of": "median"}
-
-_FEWEST_LATE = 50
-"""Minimum number of samples for a judgement of the latest tenth."""
-
-_STEADY = seconds(0.1)
-"""Maximum variation, from 10 % to 90 % quantile, of a delay that no queue causes."""
-
-
-def _in_time(model: Model, track: Track, least: float) -> Hit | None:
-    """Return a hit if a late transform's poses arrive in time on an Odometry topic; else None.
-
-    Args:
-        model: Model of the evidence.
-        track: The transform.
-        least: Minimum median latency of a late transform, seconds.
-    """
-    odometry = model.evidence.odometry
-    is_late = track.median_latency > least * NANOSECONDS
-    if odometry is None or not is_late or not track.moves:
-        return None
-    for edge in odometry.edges:
-        other = Track(edge, odometry)
-        if other.edge != track.edge or len(other.stamps) < _FEWEST_POSES:
-            continue
-        by = 0 if model.shift is None else model.shift.by
-        latency = int(np.median(other.logs - other.stamps)) - by
-        if 4 * abs(latency) > track.median_latency:
-            continue
-        # The message of a pose arrives at nearly the same time as the transform.
-        after = np.searchsorted(other.logs, track.logs)
-        own = np.arange(len(track.stamps))
-        near = [np.clip(after + step, 0, len(other.logs) - 1) for step in (-1, 0)]
-        same = [_are_same(track, own, other, one) for one in near]
-        if np.mean(same[0] | same[1]) < _SAME_POSES:
-            continue
-        told = other.translations[np.where(same[1], near[1], near[0])]
-        signs = (np.abs(track.translations - told) > _ROUNDED).mean(axis=0) > 0.5
-        axes = [axis for axis, differs in zip("xyz", signs.tolist(), strict=True) if differs]
-        but = f" (with another sign of {', '.join(axes)})" if axes else ""
-        topic = other.topics[0]
-        facts = {"what": track.name, "late": track.median_latency, "varies": "", **_MEDIAN}
-        cure = (
-            f"{topic} brings the same poses{but} {span(latency)} after their stamps: the node that "
-            "sends both stamps the transform with an older time"
+        yield hit_of(
+            track,
+            {
+                "share": share,
+                "short": int(limits["short"] * mean),
+                "long": int(long),
+                "mean": int(mean),
+            },
         )
-        return hit_of(track, facts, severity=Severity.WARNING, fixes=(Fix(cure),))
-    return None
-
-
-_FEWEST_POSES = 10
-"""Minimum number of Odometry messages that show the right stamps of their poses."""
-
-_SAME_POSES = 0.8
-"""Minimum share of a transform's samples with the pose of an Odometry message."""
-
-
-_ROUNDED = 1e-4
-"""Difference of coordinates, metres, within which two poses are one."""
-
-
-def _are_same(track: Track, some: Places, other: Track, others: Places) -> Mask:
-    """Return a mask of the pairs of samples with equal poses, except for signs of x, y and z.
-
-    Args:
-        track: First stream of transforms.
-        some: Rows in `track`, shape (n,).
-        other: Second stream of transforms.
-        others: Rows in `other`, shape (n,).
-    """
-    mine, theirs = np.abs(track.translations[some]), np.abs(other.translations[others])
-    apart = np.abs(mine - theirs).max(axis=1)
-    dots = np.einsum("ij,ij->i", track.rotations[some], other.rotations[others])
-    return np.asarray((apart < _ROUNDED) & (np.abs(dots) > 1.0 - 1e-6))
-
-
-def _late(model: Model, stream: "Track | Heard") -> Hit:
-    low, high = (int(percentile(stream.latency, percent)) for percent in (10, 90))
-    varies = f", from {span(low)} to {span(high)} for 80 %" if high - low > _STEADY else ""
-    shown = _relayed_late(model, stream)
-    for other in model.heard if isinstance(stream, Track) else ():
-        # No node can copy the stamp of a message that has not arrived.
-        soon = 4 * abs(other.median_latency) < stream.median_latency
-        if soon and not shown and np.isin(stream.stamps, other.stamps).mean() > 0.5:
-            shown = (
-                f"{other.topic} has the same stamps, {span(other.median_latency)} late: these "
-                "messages wait on their way, and no clock is wrong"
-            )
-    facts = {"what": stream.name, "late": stream.median_latency, "varies": varies, **_MEDIAN}
-    if not shown:
-        return hit_of(stream, facts, fixes=() if varies else (COMPARE_CLOCKS,))
-    return hit_of(stream, facts, severity=Severity.WARNING, fixes=(Fix(shown),))
-
-
-def _relayed_late(model: Model, stream: "Track | Heard") -> str:
-    """Return a remedy if a node received data in time but sent it late; else an empty string."""
-    for source in model.heard:
-        if not source.is_spatial or 4 * abs(source.median_latency) > stream.median_latency:
-            continue
-        part = last_part(source.topic)
-        for other in model.heard:
-            made = last_part(other.topic)
-            is_late = 2 * other.median_latency > stream.median_latency
-            is_same = (other.type, other.frame) == (source.type, source.frame)
-            is_made = made != part and made.endswith(part) and stream.name.endswith(made)
-            if is_late and is_same and is_made:
-                told = " and ".join(sorted({stream.name, other.topic}))
-                return (
-                    f"{source.topic} arrives {span(source.median_latency)} after its stamp, and "
-                    f"{told} late: look at the node that makes {other.topic} from it"
-                )
-    return ""

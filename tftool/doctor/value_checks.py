@@ -194,7 +194,7 @@ def _fate(model: Model, track: Track, place: int, severity: Severity) -> tuple[s
     because_of=(
         ("anything", "time-jump-back"),
         ("mixed", "publisher-conflict two-parents"),
-        ("edge", "placeholder-pose frozen-pose"),
+        ("edge", "placeholder-pose frozen-pose outlier"),
     ),
 )
 def teleport(model: Model, limits: Limits) -> Iterator[Hit]:
