@@ -100,7 +100,7 @@ LINES: Final = {
 
 
 def with_blanks(node: str, text: str) -> str:
-    """Turn a node's source into an exercise: write a TODO in place of each key assignment.
+    """Turn a node's source into an exercise: write a TODO in place of each important assignment.
 
     Args:
         node: Name of the node, which selects the assignments.

@@ -22,8 +22,8 @@ class DemoOptions(Command, hosts_turtles=True, recordings=True):
     On a terminal, the screen shows a picture of the frames, their tree, and a pair of frames over
     time. The arrow keys drive turtle1, [ and ] move through time, F changes the fixed frame, o
     shows another scenario, q quits. After 5 s without a key, turtle1 drives by itself until a key
-    is pressed or another terminal joins. Without a terminal, the command plays the scenario on
-    simulated time with its script, prints the outcome, and exits with 1 if an expectation
+    is pressed or another terminal joins. Without a terminal, the command plays the scenario and
+    the scenario's script on simulated time, prints the outcome, and exits with 1 if an expectation
     failed.
 
     tftool demo

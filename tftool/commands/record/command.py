@@ -48,7 +48,7 @@ _ERASE: Final = "\r\x1b[K"
 
 
 class RecordingRun:
-    """Loop that writes messages to a file until a duration, a finding or the user ends the loop."""
+    """Loop that writes messages to a file until a time limit, a finding, or a stop by the user."""
 
     def __init__(
         self,

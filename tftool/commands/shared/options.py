@@ -256,7 +256,7 @@ def seconds_option(
     Args:
         help_text: Text of the help.
         names: Names of the option; if none are given, the name is made from the field's name.
-        default: Value in nanoseconds if the option is not given; see `option`.
+        default: Value if the option is not given, in nanoseconds; see `option`.
         check: Check of the number of seconds.
         panel: Heading above the option in the help; None for the usual heading.
     """

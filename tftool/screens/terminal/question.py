@@ -96,9 +96,9 @@ class SceneQuestion:
         return found
 
     def _other_pair(self, moment: SceneMoment) -> tuple[str, str]:
-        """Return the pair to show: the selected pair, or existing frames in its place.
+        """Return the pair to show: the selected pair, or a pair of existing frames.
 
-        The pair is replaced only if its frames do not exist, and the user has not selected frames.
+        Only a pair that the user has not selected is replaced, and only if its frames do not exist.
         """
         asked, snapshot = (self.target, self.source), moment.snapshot
         if not self._picked and all(name in snapshot for name in self._wished):
