@@ -79,7 +79,7 @@ class FollowOptions(Command):
         metavar="GAIN",
     )
     integral_limit: float | None = option(
-        "Largest part of a command that comes from an integral gain.",
+        "Limit on the part of a command that the integral gains contribute.",
         callback=not_negative,
         metavar="LIMIT",
     )

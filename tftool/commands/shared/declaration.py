@@ -144,7 +144,7 @@ POSES = "Pose files"
 
 
 class _OfPoseFiles:
-    """Options of commands whose FROM may be a pose file; each may be given for every file."""
+    """Options of commands whose FROM may be a pose file; each applies to the file before it."""
 
     frames: str | None = option(
         "Names of parent and child in a pose file. Each option of this group applies to the pose "

@@ -273,8 +273,8 @@ class LiveDisplays:
     def round(self) -> dict[str, bytes]:
         """Return the packed data of topics with new messages, by topic.
 
-        The packed data is limited to `MOST_BYTES`. Topics beyond the limit are first in the next
-        call.
+        The packed data is limited to `MOST_BYTES`. The next call begins with the topics beyond
+        the limit.
         """
         told: dict[str, bytes] = {}
         room = MOST_BYTES
