@@ -54,7 +54,7 @@ def test_a_report_says_what_was_read_what_is_wrong_what_is_fine_and_how_much():
         "            after it:",
         "            tftool echo odom base_link RECORDING --at 1750000005.02",
         "",
-        "publishers fine · names fine · clocks fine (latency 5 ms tf, 15 ms /scan, 15 ms /points)"
+        "publishers fine · names fine · clocks fine (latency: tf 5 ms, /scan 15 ms, /points 15 ms)"
         " · coverage fine · robot description: skipped, no URDF given",
         "1 error, 1 warning. `tftool doctor --explain split-tree` tells more; "
         "`--markdown` prints this for an issue.",

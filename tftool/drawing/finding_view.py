@@ -209,10 +209,14 @@ def _latencies(model: Model, area: Area) -> str:
     if area is not Area.CLOCKS or not model.evidence.timed:
         return ""
     moving = [track.median_latency for track in model.dynamic if not track.is_localisation]
-    parts = [f"{span(float(np.median(moving)))} tf"] if moving else []
+    latencies = [("tf", float(np.median(moving)))] if moving else []
     heard = [one for one in model.heard if one.is_spatial and len(one.stamps)][:3]
-    parts += [f"{span(one.median_latency)} {one.topic}" for one in heard]
-    return f" (latency {', '.join(parts)})" if parts else ""
+    latencies += [(one.topic, float(one.median_latency)) for one in heard]
+    parts = (
+        f"{name} dated {span(-latency)} ahead" if latency < 0.0 else f"{name} {span(latency)}"
+        for name, latency in latencies
+    )
+    return f" (latency: {', '.join(parts)})" if latencies else ""
 
 
 def summary(diagnosis: Diagnosis) -> str:
