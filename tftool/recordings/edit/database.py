@@ -47,7 +47,7 @@ class EditedDatabase:
 
     container = "db3"
 
-    def __init__(self, path: Path, tape: Sqlite) -> None:
+    def __init__(self, path: Path, reader: Sqlite) -> None:
         """Copy the input file to `path`, and verify the copy.
 
         Raises:
@@ -55,14 +55,14 @@ class EditedDatabase:
             OSError: If the file cannot be written.
         """
         self.path = path
-        self.channels = tape.channels
+        self.channels = reader.channels
         self.counts: Counter[int] = Counter()
         self.start: Stamp = 0
         self.end: Stamp = 0
-        self._tape = tape
+        self._reader = reader
         self._wanted: dict[tuple[str, str], int] = {}
         self._touched: list[int] = []
-        with tape.path.open("rb") as source, path.open("wb+") as out:
+        with reader.path.open("rb") as source, path.open("wb+") as out:
             whole = Piece(source.fileno(), 0, os.fstat(source.fileno()).st_size)
             whole.copy_to(out.fileno(), 0)
         self._base = sqlite3.connect(path, isolation_level=None)
@@ -137,7 +137,7 @@ class EditedDatabase:
         Raises:
             Unsound: If a timestamp is not a whole number.
         """
-        streams = {self._tape.topic_ids[number]: number for number in numbers}
+        streams = {self._reader.topic_ids[number]: number for number in numbers}
         asked = rows_query(streams, most=_ROWS)
         last = LOWEST_ROW
         # Read each part completely, so that no row changes while a query is open.
@@ -160,7 +160,7 @@ class EditedDatabase:
             last = rows[-1][0]
 
     def _sum_up(self) -> None:
-        numbers = {topic: number for number, topic in enumerate(self._tape.topic_ids)}
+        numbers = {topic: number for number, topic in enumerate(self._reader.topic_ids)}
         asked = "select topic_id, count(*), min(timestamp), max(timestamp) from messages "
         found = self._base.execute(asked + "group by topic_id").fetchall()
         self.counts = Counter(

@@ -55,31 +55,31 @@ class StaticHeads:
     def __init__(
         self,
         edits: Edits,
-        tapes: Sequence[ContainerReader],
+        readers: Sequence[ContainerReader],
         changer: Changer,
         start: Stamp,
         *,
-        by_tape: bool,
+        by_input: bool,
         ros2: bool,
     ) -> None:
         """Create an empty collection of static transforms, which `collect` fills.
 
         Args:
             edits: The changes.
-            tapes: Readers of the input files.
+            readers: Readers of the input files.
             changer: Editor of messages, which also applies the changes to the static transforms.
             start: Log time of the first message in the output.
-            by_tape: Whether each input file becomes a separate output file.
+            by_input: Whether each input file becomes a separate output file.
             ros2: Whether the result is a ROS 2 recording.
         """
         self.wanted = bool(
             edits.statics_first or edits.statics_from or edits.cuts or edits.split_every
         )
         self._edits = edits
-        self._tapes = tapes
+        self._readers = readers
         self._changer = changer
         self._start = start
-        self._by_tape = by_tape
+        self._by_input = by_input
         self._ros2 = ros2
         self._statics: list[_Static] = []
 
@@ -96,16 +96,16 @@ class StaticHeads:
         if not self.wanted:
             return
         edits = self._edits
-        for source, tape in enumerate(self._tapes):
-            for block in tape.blocks():
+        for source, reader in enumerate(self._readers):
+            for block in reader.blocks():
                 if block.counts is not None and block.whole:
-                    known = [tape.channels[number] for number in block.counts]
+                    known = [reader.channels[number] for number in block.counts]
                     if not any(map(carries_statics, known)):
                         continue
                 table = block.table()
                 for place, number in enumerate(table.channels.tolist()):
-                    if carries_statics(tape.channels[number]):
-                        self._take(source, table.message(place), tape.channels[number])
+                    if carries_statics(reader.channels[number]):
+                        self._take(source, table.message(place), reader.channels[number])
         counts, self._changer.counts = self._changer.counts, Counter()
         if edits.links or edits.statics_from:
             edited = []
@@ -145,7 +145,7 @@ class StaticHeads:
             end = min(end, window.end)
         chosen: dict[str, _Static] = {}
         for one in self._statics:
-            if self._by_tape and not edits.cuts and one.source > number:
+            if self._by_input and not edits.cuts and one.source > number:
                 continue
             child = stripped(one.row.child)
             held = chosen.get(child)
@@ -161,7 +161,7 @@ class StaticHeads:
             rows = [one.row for one in group] + added
             added = []
             payload = encode_rows(LAYOUTS[channel.encoding], rows)
-            output.write(source, _one(own, start, payload), self._tapes[source])
+            output.write(source, _one(own, start, payload), self._readers[source])
         if added:
             self._write_added(output, added, start)
         output.writer.flush()
@@ -173,8 +173,8 @@ class StaticHeads:
         encoding = container_named(output.container).encoding
         ros1 = encoding == "ros1" or all(
             channel.encoding == "ros1"
-            for tape in self._tapes
-            for channel in tape.channels.values()
+            for reader in self._readers
+            for channel in reader.channels.values()
             if carries_transforms(channel)
         )
         if encoding == "ros1" or (ros1 and not encoding and not self._ros2):

@@ -53,7 +53,7 @@ class EditedFile:
         self,
         path: Path,
         container: str,
-        tape: ContainerReader,
+        reader: ContainerReader,
         *,
         ros2: bool,
         packs: bool = False,
@@ -65,7 +65,7 @@ class EditedFile:
         Args:
             path: Path of the written file.
             container: "mcap", "db3" or "bag".
-            tape: Reader of the first input file; its `style` is used if both files have the same
+            reader: Reader of the first input file; its `style` is used if both files have the same
                 format.
             ros2: Whether ROS 1 messages are converted to ROS 2.
             packs: Whether each message is compressed separately, as in rosbag2's mode "message".
@@ -90,27 +90,27 @@ class EditedFile:
         self.refused: dict[str, str] = {}
         self._kinds: dict[Channel, Kinds] = {}
         self._format = container_named(container)
-        self.writer = self._opened(tape)
+        self.writer = self._opened(reader)
         # Only a writer of chunks can copy chunks; a database is written row by row.
         self._chunks = self.writer if hasattr(self.writer, "copy_chunk") else None
         if self._chunks is not None:
             self._chunks.first_free = first_free
 
-    def _opened(self, tape: ContainerReader) -> Any:
+    def _opened(self, reader: ContainerReader) -> Any:
         """Create the file, and return its writer; use the style of an input of the same format."""
-        is_same = tape.container == self._format.name
-        style: dict[str, Any] = dict(tape.style) if is_same else {}
-        if not getattr(tape, "is_indexed", True) and not style.get("chunked", True):
+        is_same = reader.container == self._format.name
+        style: dict[str, Any] = dict(reader.style) if is_same else {}
+        if not getattr(reader, "is_indexed", True) and not style.get("chunked", True):
             del style["chunked"]
         if self._ros2:
             style.pop("profile", None)
-        is_ros1 = container_named(tape.container).encoding == "ros1" and not self._ros2
+        is_ros1 = container_named(reader.container).encoding == "ros1" and not self._ros2
         return self._format.create_like(self.path, style, profile="ros1" if is_ros1 else "ros2")
 
     # Channels
 
     def _conversion(
-        self, input_number: int, number: int, channel: Channel, tape: ContainerReader
+        self, input_number: int, number: int, channel: Channel, reader: ContainerReader
     ) -> Conversion | None:
         """Return the conversion of an input's channel for this file.
 
@@ -119,7 +119,7 @@ class EditedFile:
         key = input_number, number
         if key not in self._conversions:
             try:
-                self._conversions[key] = self._converted(channel, tape)
+                self._conversions[key] = self._converted(channel, reader)
             except TftoolError as error:
                 keeps = not self._format.encoding
                 self._conversions[key] = Conversion(channel, bytes) if keeps else None
@@ -130,7 +130,7 @@ class EditedFile:
     def _note_refusal(self, topic: str, fate: str, error: TftoolError) -> None:
         self.refused.setdefault(topic, f"{fate}: {str(error).rstrip('.')}.")
 
-    def _converted(self, channel: Channel, tape: ContainerReader) -> Conversion:
+    def _converted(self, channel: Channel, reader: ContainerReader) -> Conversion:
         if self._format.encoding == "ros1":
             return as_ros1(channel)
         if channel.encoding == "ros1":
@@ -143,29 +143,29 @@ class EditedFile:
                 )
             channel = replace(channel, type=full_name(channel.type))
         # An MCAP input without definitions stays unchanged; other containers cannot store them.
-        if channel.encoding == "cdr" and not channel.definition and tape.container != "mcap":
+        if channel.encoding == "cdr" and not channel.definition and reader.container != "mcap":
             channel = _defined(channel)
         return Conversion(channel, bytes)
 
     def _register(
-        self, input_number: int, number: int, channel: Channel, tape: ContainerReader
+        self, input_number: int, number: int, channel: Channel, reader: ContainerReader
     ) -> int | None:
         """Return the number of an input's channel in this file; None for an omitted channel."""
         key = input_number, number
         found = self._numbers.get(key)
         if found is not None:
             return found
-        conversion = self._conversion(input_number, number, channel, tape)
+        conversion = self._conversion(input_number, number, channel, reader)
         if conversion is None:
             return None
         written = conversion.channel
         if channel.topic in self._latched:
             written = _latching(written)
         same = written == channel
-        if same and self._fits(input_number, tape) and number not in self.channels:
+        if same and self._fits(input_number, reader) and number not in self.channels:
             assert self._chunks is not None
-            assert isinstance(tape, ChunkedReader)
-            self._chunks.adopt(written, number, tape.origin(number))
+            assert isinstance(reader, ChunkedReader)
+            self._chunks.adopt(written, number, reader.origin(number))
             self._numbers[key] = number
             self.channels[number] = written
             return number
@@ -181,32 +181,32 @@ class EditedFile:
             self.channels[found] = channel
         return found
 
-    def _fits(self, input_number: int, tape: ContainerReader) -> bool:
+    def _fits(self, input_number: int, reader: ContainerReader) -> bool:
         """Whether chunks of an input can be copied: all channel numbers are the same here."""
         found = self._compatible.get(input_number)
         if found is None:
-            found = tape.container == self.container and (
-                not self._compatible or self._agrees(tape)
+            found = reader.container == self.container and (
+                not self._compatible or self._agrees(reader)
             )
             self._compatible[input_number] = found
         return found and self._chunks is not None
 
-    def _agrees(self, tape: ContainerReader) -> bool:
+    def _agrees(self, reader: ContainerReader) -> bool:
         """Whether all channel numbers of an input are unused or mean the same in this file."""
-        if self._chunks is None or self._extra or not isinstance(tape, ChunkedReader):
+        if self._chunks is None or self._extra or not isinstance(reader, ChunkedReader):
             return False
-        channels = tape.channels.items()
+        channels = reader.channels.items()
         same = all(self.channels.get(number, channel) == channel for number, channel in channels)
-        return same and tape.is_indexed and self._chunks.agrees(tape.schemas)
+        return same and reader.is_indexed and self._chunks.agrees(reader.schemas)
 
     # Messages
 
-    def write(self, input_number: int, table: MessageTable, tape: ContainerReader) -> bool:
+    def write(self, input_number: int, table: MessageTable, reader: ContainerReader) -> bool:
         """Append messages of an input; return whether at least one message was written."""
         numbers = np.full(len(table), -1, dtype=np.int64)
         change = TableChange(table)
         for own in table.owners:
-            number = self._register(input_number, own, tape.channels[own], tape)
+            number = self._register(input_number, own, reader.channels[own], reader)
             which = np.flatnonzero(table.channels == own)
             if number is None:
                 change.keep[which] = False
@@ -215,7 +215,7 @@ class EditedFile:
             conversion = self._conversions[input_number, own]
             assert conversion is not None
             if conversion.payload is not bytes:
-                self._convert(change, which, tape.channels[own], conversion)
+                self._convert(change, which, reader.channels[own], conversion)
         change.table = replace(change.table, channels=numbers)
         table = change.finished()
         if not len(table):
@@ -270,20 +270,20 @@ class EditedFile:
             packed = payload if self._pack is None else self._pack(payload)
             self.writer.write(number, log_time, packed, publish_time, sequence)
 
-    def can_copy(self, input_number: int, block: Block, tape: ContainerReader) -> bool:
+    def can_copy(self, input_number: int, block: Block, reader: ContainerReader) -> bool:
         """Whether a block of messages of an input can be copied unchanged."""
-        if not (block.whole and isinstance(block, Chunk) and self._fits(input_number, tape)):
+        if not (block.whole and isinstance(block, Chunk) and self._fits(input_number, reader)):
             return False
         for number in block.counts or ():
-            channel = tape.channels[number]
-            if self._register(input_number, number, channel, tape) != number:
+            channel = reader.channels[number]
+            if self._register(input_number, number, channel, reader) != number:
                 return False
             if self.channels[number] != channel:
                 return False
         # A copied chunk may describe its channels: it must not contradict a changed channel.
         return not any(
             channel.topic in self._latched and _latching(channel) != channel
-            for channel in tape.channels.values()
+            for channel in reader.channels.values()
         )
 
     def copy(self, chunk: Chunk) -> None:
@@ -306,14 +306,14 @@ class EditedFile:
         ):
             self._chunks.end_block(block)
 
-    def finish(self, tapes: Sequence[ContainerReader]) -> None:
+    def finish(self, readers: Sequence[ContainerReader]) -> None:
         """Write the inputs' attachments and metadata, and close the file."""
         if self._chunks is not None:
-            for number, tape in enumerate(tapes):
-                if isinstance(tape, ChunkedReader) and self._fits(number, tape):
-                    self._chunks.copy_extras(tape.extras, tape.schemas)
+            for number, reader in enumerate(readers):
+                if isinstance(reader, ChunkedReader) and self._fits(number, reader):
+                    self._chunks.copy_extras(reader.extras, reader.schemas)
                 else:
-                    self._chunks.copy_extras(tape.extras, {})
+                    self._chunks.copy_extras(reader.extras, {})
         self.writer.finish()
 
 

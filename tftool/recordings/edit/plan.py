@@ -37,7 +37,7 @@ class EditedInput:
 
     Attributes:
         name: Name as the user gave it.
-        tapes: Readers of the files, in order.
+        readers: Readers of the files, in order.
         paths: Paths of the files.
         is_folder: Whether the input is a rosbag2 folder.
         metadata: Contents of the folder's metadata.yaml.
@@ -47,7 +47,7 @@ class EditedInput:
     """
 
     name: str
-    tapes: list[ContainerReader] = field(default_factory=list)
+    readers: list[ContainerReader] = field(default_factory=list)
     paths: list[Path] = field(default_factory=list)
     is_folder: bool = False
     metadata: Mapping[str, Any] | None = None
@@ -65,12 +65,12 @@ class EditedInput:
     @property
     def size(self) -> int:
         """Size of all files of the input, bytes."""
-        return sum(tape.size for tape in self.tapes)
+        return sum(reader.size for reader in self.readers)
 
     def close(self) -> None:
         """Close the input's files, and remove decompressed copies."""
-        for tape in self.tapes:
-            tape.close()
+        for reader in self.readers:
+            reader.close()
         for folder in self._unpacked:
             folder.cleanup()
 
@@ -91,7 +91,7 @@ class EditedInput:
                 self.damage.append(cut)
             kind = kind_of_file(place)
             self.mode = "file"
-        self.tapes.append(open_tape(place, kind, unpacks=self.mode == "message"))
+        self.readers.append(open_reader(place, kind, unpacks=self.mode == "message"))
         self.paths.append(path)
 
     def add_poses(self, found: Found) -> None:
@@ -104,7 +104,7 @@ class EditedInput:
         self._unpacked.append(folder)
         place = Path(folder.name) / "poses.mcap"
         open_poses(found).write_mcap(place)
-        self.tapes.append(open_tape(place, Kind.MCAP))
+        self.readers.append(open_reader(place, Kind.MCAP))
         self.paths.append(found.paths[0])
 
 
@@ -148,7 +148,7 @@ def open_input(name: str) -> EditedInput:
             except OSError as error:
                 refused.append(refusal(path, error))
             opened.damage.append(f"{path.name} is left out: {refused[-1]}")
-        if not opened.tapes:
+        if not opened.readers:
             raise refused[0]
     except OSError as error:
         opened.close()
@@ -159,17 +159,17 @@ def open_input(name: str) -> EditedInput:
     return opened
 
 
-def open_tape(path: Path, kind: Kind | None = None, *, unpacks: bool = False) -> ContainerReader:
+def open_reader(path: Path, kind: Kind | None = None, *, unpacks: bool = False) -> ContainerReader:
     """Open a file of a recording for reading from beginning to end.
 
     Raises:
         InputError: If the file is not a recording, or cannot be read.
         OSError: If the file cannot be opened.
     """
-    tape = container_in(path, kind or kind_of_file(path)).open(path, by_index=False)
-    if isinstance(tape, Sqlite):
-        tape.unpacks = unpacks
-    return tape
+    reader = container_in(path, kind or kind_of_file(path)).open(path, by_index=False)
+    if isinstance(reader, Sqlite):
+        reader.unpacks = unpacks
+    return reader
 
 
 def changer_for(edits: Edits, recordings: Sequence[Recording]) -> Changer:

@@ -28,7 +28,7 @@ from tftool.recordings.edit.changes import Edits
 from tftool.recordings.edit.database import EditedDatabase, Unsound
 from tftool.recordings.edit.heads import StaticHeads
 from tftool.recordings.edit.outputs import EditedFile, digest_table
-from tftool.recordings.edit.plan import EditedInput, changer_for, open_input, open_tape
+from tftool.recordings.edit.plan import EditedInput, changer_for, open_input, open_reader
 from tftool.recordings.recording import Recording, open_recording
 from tftool.recordings.rosbag2.format import FileFacts, metadata_text, write_metadata
 from tftool.recordings.rosbag2.read import Sqlite
@@ -153,7 +153,7 @@ class _Job:
         self._path = output
         self._edits = edits
         self._progress = progress
-        self._tapes: list[ContainerReader] = [tape for one in inputs for tape in one.tapes]
+        self._readers: list[ContainerReader] = [reader for one in inputs for reader in one.readers]
         self._is_folder = not container
         encoding = container_named(container).encoding if container else ""
         if ros2 and encoding == "ros1":
@@ -168,7 +168,7 @@ class _Job:
                 f"'{output.stem}', not '{output.name}'."
             )
         if not container:
-            kinds = {tape.container for tape in self._tapes}
+            kinds = {reader.container for reader in self._readers}
             container = "db3" if kinds == {"db3"} else "mcap"
             # rosbag2 has no folders of ROS 1 bags; splitting a bag makes one.
             if kinds == {"bag"} and edits.split_every:
@@ -178,7 +178,7 @@ class _Job:
         first = inputs[0]
         self._mode = first.mode if self._is_folder and container == "db3" else ""
         # Each file of a folder becomes one file of the result.
-        self._by_tape = (
+        self._by_input = (
             self._is_folder and len(inputs) == 1 and first.is_folder and not edits.split_every
         )
         self.report = EditReport()
@@ -191,7 +191,12 @@ class _Job:
         self._databases: list[EditedDatabase] = []
         self._order: list[int] = []
         self._heads = StaticHeads(
-            edits, self._tapes, self._changer, self._start, by_tape=self._by_tape, ros2=self._ros2
+            edits,
+            self._readers,
+            self._changer,
+            self._start,
+            by_input=self._by_input,
+            ros2=self._ros2,
         )
 
     # The runs
@@ -200,17 +205,17 @@ class _Job:
         """Return a report of the changes that the edit would make, without writing."""
         self._heads.collect()
         done = 0
-        for tape in self._tapes:
-            for block in tape.blocks():
-                if self._stays_unseen(block, tape) and block.sound():
+        for reader in self._readers:
+            for block in reader.blocks():
+                if self._stays_unseen(block, reader) and block.sound():
                     self.report.messages += sum((block.counts or {}).values())
                     self.report.copied += self._in_one_part(block)
                     continue
                 table = block.table()
-                after = self._changer.changed_table(table, tape.channels)
+                after = self._changer.changed_table(table, reader.channels)
                 self.report.messages += len(after)
                 self.report.copied += after is table and self._in_one_part(block)
-            done += tape.size
+            done += reader.size
             self._tell(done)
         self._sum_up()
         return self.report
@@ -236,7 +241,7 @@ class _Job:
 
     def _check_room(self) -> None:
         size = sum(one.size for one in self._inputs)
-        same = {tape.container for tape in self._tapes} == {self._container}
+        same = {reader.container for reader in self._readers} == {self._container}
         # Another container may compress less, which is unknown before writing.
         check_room(self._path, (size if same else size // 2) + _ROOM)
 
@@ -250,25 +255,25 @@ class _Job:
             else:
                 return
         self._heads.collect()
-        total, done = sum(tape.size for tape in self._tapes), 0
-        for source, tape in enumerate(self._tapes):
-            for block in self._examined_ahead(tape):
-                if self._by_tape and source not in self._outputs:
+        total, done = sum(reader.size for reader in self._readers), 0
+        for source, reader in enumerate(self._readers):
+            for block in self._examined_ahead(reader):
+                if self._by_input and source not in self._outputs:
                     self._output(source, part, block.start or self._start)
-                self._write_block(source, tape, block, part)
+                self._write_block(source, reader, block, part)
                 if isinstance(block, Chunk):
-                    self._tell(done + min(block.behind, tape.size), 2 * total)
-            if self._by_tape:
+                    self._tell(done + min(block.behind, reader.size), 2 * total)
+            if self._by_input:
                 self._output(source, part)
-            done += tape.size
+            done += reader.size
             self._tell(done, 2 * total)
         if not self._outputs:
             self._output(0, part)
         for number, output in self._outputs.items():
-            whose = [self._tapes[number]] if self._by_tape else self._tapes
-            output.finish(whose if self._by_tape or number == self._order[0] else [])
+            whose = [self._readers[number]] if self._by_input else self._readers
+            output.finish(whose if self._by_input or number == self._order[0] else [])
 
-    def _examined_ahead(self, tape: ContainerReader) -> Iterator[Block]:
+    def _examined_ahead(self, reader: ContainerReader) -> Iterator[Block]:
         """Yield the blocks of an input, while a thread verifies the following blocks.
 
         Decompressing a chunk and checking its CRC takes as long as copying it, and both release
@@ -277,8 +282,8 @@ class _Job:
         waiting: deque[tuple[Block, Future[bool] | None]] = deque()
         with ThreadPoolExecutor(1, "tftool-examine") as pool:
             try:
-                for block in tape.blocks():
-                    stays = self._stays_unseen(block, tape)
+                for block in reader.blocks():
+                    stays = self._stays_unseen(block, reader)
                     waiting.append((block, pool.submit(block.sound) if stays else None))
                     if len(waiting) > _AHEAD:
                         yield _examined(*waiting.popleft())
@@ -289,37 +294,39 @@ class _Job:
                     if examined is not None:
                         examined.cancel()
 
-    def _stays_unseen(self, block: Block, tape: ContainerReader) -> bool:
+    def _stays_unseen(self, block: Block, reader: ContainerReader) -> bool:
         """Whether the index alone shows that the edit changes nothing in a block."""
         return (
             block.whole
             and bool(block.counts)
             and self._changer.keeps_all(block.start, block.end)
-            and not any(self._changer.touches(tape.channels[n]) for n in block.counts or ())
+            and not any(self._changer.touches(reader.channels[n]) for n in block.counts or ())
         )
 
     # Databases
 
     def _changed_in_place(self) -> list[Sqlite]:
         """Return the input databases if the edit can copy them and update rows; else []."""
-        tapes = [tape for tape in self._tapes if isinstance(tape, Sqlite)]
-        alike = len(tapes) == len(self._tapes) and self._container == "db3"
-        one_to_one = self._by_tape or (len(tapes) == 1 and not self._edits.split_every)
+        readers = [reader for reader in self._readers if isinstance(reader, Sqlite)]
+        alike = len(readers) == len(self._readers) and self._container == "db3"
+        one_to_one = self._by_input or (len(readers) == 1 and not self._edits.split_every)
         # Copying is impossible if messages must be compressed again, or damaged rows be skipped.
         packed = self._mode == "message" or any(one.mode == "message" for one in self._inputs)
-        damaged = any(one.damage for one in self._inputs) or any(tape.damage for tape in tapes)
+        damaged = any(one.damage for one in self._inputs) or any(
+            reader.damage for reader in readers
+        )
         if not alike or not one_to_one or packed or damaged or self._heads.wanted:
             return []
-        return tapes
+        return readers
 
-    def _change_databases(self, tapes: Sequence[Sqlite], part: Path) -> None:
-        total, done = sum(tape.size for tape in tapes), 0
-        for tape in tapes:
-            database = EditedDatabase(self._path_in(part, len(self._databases)), tape)
+    def _change_databases(self, readers: Sequence[Sqlite], part: Path) -> None:
+        total, done = sum(reader.size for reader in readers), 0
+        for reader in readers:
+            database = EditedDatabase(self._path_in(part, len(self._databases)), reader)
             self._databases.append(database)
-            done += tape.size
+            done += reader.size
             self._tell(done // 2, 2 * total)
-            touched = [n for n, one in tape.channels.items() if self._changer.touches(one)]
+            touched = [n for n, one in reader.channels.items() if self._changer.touches(one)]
             database.change(self._changer.changed_table, touched)
             database.finish()
             self._tell(done, 2 * total)
@@ -339,27 +346,27 @@ class _Job:
         return part / f"{self._path.name}_{number}{suffix}"
 
     def _write_block(
-        self, input_number: int, tape: ContainerReader, block: Block, part: Path
+        self, input_number: int, reader: ContainerReader, block: Block, part: Path
     ) -> None:
-        stays = self._stays_unseen(block, tape) and block.sound()
+        stays = self._stays_unseen(block, reader) and block.sound()
         table = after = None
         done = Counter[str]()
         if not stays:
             counts, self._changer.counts = self._changer.counts, done
             table = block.table()
-            after = self._changer.changed_table(table, tape.channels)
+            after = self._changer.changed_table(table, reader.channels)
             self._changer.counts = counts
         keeps = not self._edits.links or self._changer.keeps_all(block.start, block.end)
         if after is table and keeps and self._in_one_part(block):
             assert isinstance(block, Chunk)
             output = self._output(self._part_of(input_number, block.start), part)
-            if output.can_copy(input_number, block, tape):
+            if output.can_copy(input_number, block, reader):
                 output.copy(block)
                 return
         self._changer.counts.update(done)
         for number, rows in self._by_part(input_number, block.table() if after is None else after):
             output = self._output(number, part)
-            if output.write(input_number, rows, tape):
+            if output.write(input_number, rows, reader):
                 output.closed_block(block)
 
     def _by_part(
@@ -383,14 +390,20 @@ class _Job:
 
     def _part_of(self, input_number: int, log_time: Stamp) -> int:
         """Return the number of the output file for a message of an input."""
-        if self._by_tape:
+        if self._by_input:
             return input_number
         if not self._edits.split_every:
             return 0
         return max(0, (log_time - self._start) // self._edits.split_every)
 
     def _output(self, number: int, part: Path, start: Stamp | None = None) -> EditedFile:
-        """Return the output file `number`; a new file begins with the static transforms."""
+        """Return the output file `number`; a new file begins with the static transforms.
+
+        Args:
+            number: Number of the file, from 0.
+            part: Path of the incomplete output: a file, or the folder of several files.
+            start: Log time of the static transforms; None for the start of the output.
+        """
         found = self._outputs.get(number)
         if found is not None:
             return found
@@ -399,11 +412,11 @@ class _Job:
                 f"--split-every would make more than {MOST_PARTS} files: choose a longer time."
             )
         path = self._path_in(part, len(self._outputs))
-        tape = self._tapes[number if self._by_tape else 0]
+        reader = self._readers[number if self._by_input else 0]
         output = self._outputs[number] = EditedFile(
             path,
             self._container,
-            tape,
+            reader,
             ros2=self._ros2,
             packs=self._mode == "message",
             latched=self._heads.topics,
@@ -416,10 +429,10 @@ class _Job:
     def _first_free(self) -> int:
         """Return the smallest number above the numbers of all the inputs' channels and schemas."""
         used = [0]
-        for tape in self._tapes:
-            used += tape.channels
-            if isinstance(tape, ChunkedReader):
-                used += tape.schemas
+        for reader in self._readers:
+            used += reader.channels
+            if isinstance(reader, ChunkedReader):
+                used += reader.schemas
         return max(used) + 1
 
     # Comparison
@@ -433,42 +446,44 @@ class _Job:
         for database in self._databases:
             database.compare()
             self.report.messages += sum(database.counts.values())
-        total = sum(tape.size for tape in self._tapes)
+        total = sum(reader.size for reader in self._readers)
         sizes = [one.path.stat().st_size for one in self._outputs.values()]
         done = 0
         for output, size in zip(self._outputs.values(), sizes, strict=True):
-            tape = open_tape(output.path, unpacks=self._mode == "message")
+            reader = open_reader(output.path, unpacks=self._mode == "message")
             try:
-                self._compare_one(output, tape)
+                self._compare_one(output, reader)
             finally:
-                tape.close()
+                reader.close()
             done += size
             self._tell(total + total * done // max(sum(sizes), 1), 2 * total)
 
-    def _compare_one(self, output: EditedFile, tape: ContainerReader) -> None:
+    def _compare_one(self, output: EditedFile, reader: ContainerReader) -> None:
         counts: Counter[tuple[str, str]] = Counter()
         found: dict[tuple[str, str], int] = {}
-        for block in tape.blocks():
+        for block in reader.blocks():
             if isinstance(block, Chunk) and block.position in output.copied:
                 # The bytes of a copied chunk were compared when they were copied.
                 position = block.position
                 if block.raw().length != output.copied[position]:
                     raise InputError(f"'{self._path}' differs from its input at byte {position}.")
                 for number, count in (block.counts or {}).items():
-                    channel = tape.channels[number]
+                    channel = reader.channels[number]
                     counts[channel.topic, channel.type] += count
                 continue
             table = block.table()
             for number, count in Counter(table.channels.tolist()).items():
-                channel = tape.channels[number]
+                channel = reader.channels[number]
                 counts[channel.topic, channel.type] += count
-            digest_table(found, table, tape.channels, output.container)
+            digest_table(found, table, reader.channels, output.container)
         wanted: Counter[tuple[str, str]] = Counter()
         for number, count in output.counts.items():
             channel = output.channels[number]
             wanted[channel.topic, channel.type] += count
-        if tape.damage or counts != wanted or found != output.digests:
-            what = tape.damage[0] if tape.damage else "messages differ from the written messages"
+        if reader.damage or counts != wanted or found != output.digests:
+            what = (
+                reader.damage[0] if reader.damage else "messages differ from the written messages"
+            )
             raise InputError(f"'{self._path}' failed the check after writing: {what}.")
         self.report.messages += sum(counts.values())
         self.report.copied += len(output.copied)
@@ -502,8 +517,8 @@ class _Job:
         report.counts = self._changer.counts
         for one in self._inputs:
             report.notes += [*one.notes, *one.damage]
-            for tape in one.tapes:
-                report.notes += tape.damage
+            for reader in one.readers:
+                report.notes += reader.damage
         for output in self._outputs.values():
             for topic, fate in output.refused.items():
                 text = f"'{topic}' {fate}"
@@ -515,7 +530,9 @@ class _Job:
             )
         if self._edits.names and not self._edits.everywhere:
             report.notes += self._old_names()
-        ros1 = any(one.encoding == "ros1" for tape in self._tapes for one in tape.channels.values())
+        ros1 = any(
+            one.encoding == "ros1" for reader in self._readers for one in reader.channels.values()
+        )
         if ros1 and not container_named(self._container).encoding and not self._ros2:
             report.notes.append(
                 "Messages keep the encoding of ROS 1 (profile ros1): --ros2 converts to ROS 2."
@@ -537,7 +554,7 @@ class _Job:
 
     def _tell(self, done: int, total: int = 0) -> None:
         if self._progress is not None:
-            self._progress(done, total or sum(tape.size for tape in self._tapes))
+            self._progress(done, total or sum(reader.size for reader in self._readers))
 
 
 def _examined(block: Block, examined: "Future[bool] | None") -> Block:
