@@ -54,11 +54,11 @@ class Check:
         why: Reason for the rule and its thresholds; empty if obvious.
         because_of: Checks whose findings may explain a finding of this check, as pairs (common
             subject, ids of the checks separated by blanks). The first pair that fits is used. Both
-            findings must be about the common subject: "edge", "child" or "frame"; "stream" (an edge
-            or a topic); "path" (an edge on the path to the sensor, or the topic); "gap" (like
-            "path", but only if all late data is in gaps); "skew" (like "path", but only if
-            transforms and messages are on two clocks); "mixed" (like "child", but only if data of
-            several publishers is mixed). With "anything", any two findings fit.
+            findings must be about the common subject. "edge", "child" and "frame" mean what they
+            say. "stream" is an edge or a topic. "path" is an edge on the path to the sensor, or the
+            topic. "gap" is "path", if all late data is in gaps. "skew" is "path", if transforms and
+            messages are on two clocks. "mixed" is "child", if data of several publishers is mixed.
+            "anything" fits any two findings.
     """
 
     id: str

@@ -244,7 +244,7 @@ _AGAINST = 0.005
 
 
 def _alternating(
-    track: Track, places: Places, owners: Places, together: Floats, limits: Limits
+    track: Track, places: Places, owners: Places, single_errors: Floats, limits: Limits
 ) -> tuple[Places, Places] | None:
     """Return the samples of two alternating motions; None if one motion explains all samples.
 
@@ -252,7 +252,7 @@ def _alternating(
         track: The edge's samples.
         places: Rows of the samples in the order of their stamps, shape (n,).
         owners: Number of the motion to which each sample is assigned, shape (n,).
-        together: Error of each sample under the assumption of a single motion, shape (n,).
+        single_errors: Error of each sample under the assumption of a single motion, shape (n,).
         limits: The thresholds.
     """
     turns = np.flatnonzero(np.diff(owners)) + 1
@@ -267,10 +267,10 @@ def _alternating(
     alone = np.full(len(places), np.nan)
     for owner in enough.tolist():
         alone[owners == owner] = _motion_errors(track, places[owners == owner])
-    judged = turns[np.isfinite(together[turns]) & np.isfinite(alone[turns])]
+    judged = turns[np.isfinite(single_errors[turns]) & np.isfinite(alone[turns])]
     if len(judged) < max(limits["samples"], 1):
         return None
-    error = float(np.median(together[judged]))
+    error = float(np.median(single_errors[judged]))
     if error <= max(limits["worse"] * float(np.median(alone[judged])), limits["reach"]):
         return None
     first, second = enough[np.argsort(-counts[enough], kind="stable")][:2].tolist()

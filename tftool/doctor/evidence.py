@@ -248,7 +248,7 @@ def _evidence_of_source(
 def _negative_variances(
     source: Recorded, topics: Sequence[str]
 ) -> dict[str, tuple[int, int, float]]:
-    """Return the attribute `negative` of `Evidence`, from the messages on Odometry topics."""
+    """Count messages with a negative variance; see the attribute `negative` of `Evidence`."""
     least: dict[str, list[float]] = {}
     for message in source.messages(topics) if topics else ():
         # A message ends with a pose, its covariance, a twist, and its covariance.

@@ -363,7 +363,7 @@ def _repeated(model: Model, track: Track, limits: Limits) -> list[tuple[int, int
 
 
 def _places_robot(model: Model, track: Track, begin: int) -> bool:
-    """Whether an edge is the pose of a moving robot in odom or a world frame, and not a detection.
+    """Whether an edge is the pose of a moving robot in odom or a world frame.
 
     Args:
         model: Model of the evidence.

@@ -74,7 +74,7 @@ def time_jump_back(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _is_seen(model: Model) -> bool:
-    """Whether listeners can notice the jump, because their own clock also goes back."""
+    """Whether listeners can notice a jump back, because their own clock also goes back."""
     read, _ = model.evidence.clock
     steps_back = bool((np.diff(read) < -LAP).any())
     return steps_back or any(track.families[0] for track in model.dynamic)

@@ -12,8 +12,9 @@ from tftool.doctor.publisher_checks import two_parents
 def marked(buffer: Buffer) -> dict[str, tuple[str, ...]]:
     """Return the marks of a buffer that may contain faults; see `frame_marks.marks`.
 
-    A frame gets the mark `edge-stopped` if its newest sample is more than ten periods and more than
-    one second older than the newest of all samples on the same clock, except samples of localisers.
+    A frame gets the mark `edge-stopped` if its newest sample is old: more than ten periods and more
+    than one second before the newest sample of all frames. Samples of localisers, and samples on
+    another clock, are not compared.
     """
     model = Model(evidence_of_buffer(buffer))
     found: dict[str, list[str]] = {}

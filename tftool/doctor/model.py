@@ -401,7 +401,7 @@ class Model:
 
     @cached_property
     def warm(self) -> tuple[Stamp, Stamp]:
-        """First and last log time for checks of coverage, which ignore `WARM_UP` at each end."""
+        """Log times between which coverage is checked: the data without `WARM_UP` at each end."""
         return self.start + WARM_UP, self.end - WARM_UP
 
     def log_of(self, stamp: Stamp) -> Stamp:

@@ -135,7 +135,7 @@ def message_of(model: Model, topic: str, near: Stamp | None) -> tuple[Heard, Sta
 
 
 class LookupTrace:
-    """One lookup of an assumed listener, followed along the edges of the path."""
+    """One lookup of an assumed listener, with the samples that its buffer has at that time."""
 
     def __init__(self, model: Model, question: Question) -> None:
         self.model = model
@@ -191,12 +191,12 @@ class LookupTrace:
         stamps = track.stamps[self.arrived(track)]
         if not track.static and len(stamps) > 1:
             # tf2 prunes before it inserts: by the newest stamp before the last sample.
-            stamps = stamps[stamps >= self.newest_before(stamps) - self.cache]
+            stamps = stamps[stamps >= self.newest_without_last(stamps) - self.cache]
         return np.sort(stamps)
 
     @staticmethod
-    def newest_before(stamps: Stamps) -> Stamp:
-        """Return the newest stamp; ignore the last stamp to arrive unless it is the only one."""
+    def newest_without_last(stamps: Stamps) -> Stamp:
+        """Return the newest stamp without the last one to arrive; a single stamp is returned."""
         return int(stamps[:-1].max(initial=stamps[0]))
 
     def way(self) -> list[Track] | None:

@@ -416,7 +416,7 @@ class _Shape:
             self._slots.append((f"_{field.name}", part))
 
     def build(self, values: Iterator[Any]) -> Any:
-        """Create the message without checks, because values that were read fit their fields."""
+        """Create a message without checks: decoded values always fit their fields."""
         message = object.__new__(self._kind)
         for slot, part in self._slots:
             setattr(message, slot, next(values) if part is None else part.build(values))

@@ -459,7 +459,7 @@ def _set_moving(
 def _set_static(
     buffer: Buffer, transforms: Transforms, edges: list[Edge], oddities: "Counter[str]"
 ) -> None:
-    """Insert a child's last static transform into a buffer; report other values in `oddities`."""
+    """Insert the last static transform of a child; count its other values in `oddities`."""
     edge = max(edges, key=_last)
     authority = transforms.publishers[int(transforms.senders[edge.messages[-1]])].authority
     x, y, z, qx, qy, qz, qw = edge.records[-1].view(np.float64)[1:].tolist()

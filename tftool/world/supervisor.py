@@ -187,7 +187,10 @@ class Supervisor:
             self.over.set_result(None)
 
     def fail(self, resident: Resident, error: BaseException, what: str = "") -> None:
-        """End the run because a resident raised an exception; the first failure is reported."""
+        """End the run because a resident raised `error`; only the first failure is reported.
+
+        `what` replaces the text of the error in the report.
+        """
         if self.failure is None:
             self.failure = NodeFailed(resident.name, error, what)
             self.failure.__cause__ = error

@@ -234,7 +234,7 @@ class _Residuals:
         self.jacobian_w = self.jacobian * scaled[:, :, None]
 
     def sums(self, starts: npt.NDArray[np.intp]) -> tuple[Floats, Floats]:
-        """Return the sums of the normal equations over the poses from each start to the next."""
+        """Return the normal equations of each block of poses; a block begins at each start."""
         square = np.einsum("nij,nik->njk", self.jacobian_w, self.jacobian_w, optimize=True)
         right = np.einsum("nij,ni->nj", self.jacobian_w, self.errors_w)
         return np.add.reduceat(square, starts), np.add.reduceat(right, starts)
