@@ -235,7 +235,7 @@ def test_lookups_at_now_are_summed_up_after_a_simulated_run(tftool, slip):
 
     result = tftool("run", "--simulated", "--for", "2", "--in", "turtles", file)
 
-    assert "use Time(), the latest, or a timeout" in result.err
+    assert "Time(), the latest time, or give a timeout" in result.err
 
 
 def test_links_that_turn_round_nothing_are_no_slip(tftool, slip):
@@ -246,7 +246,10 @@ def test_links_that_turn_round_nothing_are_no_slip(tftool, slip):
 
 @pytest.mark.parametrize(
     ("time", "told"),
-    [("self.get_clock().now()", "use Time(), the latest, or a timeout"), ("rclpy.time.Time()", "")],
+    [
+        ("self.get_clock().now()", "Time(), the latest time, or give a timeout"),
+        ("rclpy.time.Time()", ""),
+    ],
 )
 def test_lookups_at_now_are_a_warning_of_check(tftool, slip, time, told):
     file = slip(f"self.look('world', 'turtle1', {time})")
