@@ -240,7 +240,7 @@ def test_a_package_may_have_both_interfaces_and_python_modules(tmp_path):
     workspace = Workspace(tmp_path)
     try:
         with RosRuntime() as runtime:
-            importing.look_behind(workspace.module_folders)
+            importing.search_last(workspace.module_folders)
             runtime.start(node)
             runtime.sleep(1.0)
 
@@ -393,7 +393,7 @@ def test_a_file_that_needs_no_package_of_the_workspace_reads_none(ros_runtime, t
         asked.append(True)
         return workspace.module_folders()
 
-    importing.look_behind(folders)
+    importing.search_last(folders)
     file = tmp_path / "talk.py"
     told = "rclpy.create_node('talk').get_logger().info({})\n"
     file.write_text("import math\nimport rclpy\nrclpy.init()\n" + told.format("'up'"))

@@ -49,13 +49,13 @@ class FoundProgram:
     options: names.RosOptions
 
 
-def find_program(workspace: Workspace, target: str, rest: Sequence[str]) -> FoundProgram:
+def find_program(workspace: Workspace, target: str, further_words: Sequence[str]) -> FoundProgram:
     """Find the Python file, or the executable of a package, that a command line names.
 
     Args:
         workspace: Workspace in which packages are searched.
         target: Path of the file, or name of the package.
-        rest: Further words of the command line; for a package, the executable first.
+        further_words: The command line after `target`; for a package, first the executable.
 
     Raises:
         UsageError: If no executable is given, if there is no such executable, or if the part
@@ -67,9 +67,9 @@ def find_program(workspace: Workspace, target: str, rest: Sequence[str]) -> Foun
             raise UsageError(f"'{target}' is a launch file: 'tftool launch {target}' runs it")
         path = file_of(workspace, target)
         found = executables.find(workspace, None, str(path))
-        options, arguments = names.parse(rest)
-        return FoundProgram(None, path.stem, found, [target, *rest], arguments, options)
-    if not rest or rest[0].startswith("-"):
+        options, arguments = names.parse(further_words)
+        return FoundProgram(None, path.stem, found, [target, *further_words], arguments, options)
+    if not further_words or further_words[0].startswith("-"):
         package = workspace.packages.get(target)
         if package is None and Path(target).is_dir():
             raise UsageError(f"'{target}' is a folder: give a node's file, or PACKAGE EXECUTABLE")
@@ -79,9 +79,9 @@ def find_program(workspace: Workspace, target: str, rest: Sequence[str]) -> Foun
             f"no executable of package '{target}' is named: add one.{hint} To run a file, give "
             "its path"
         )
-    found = executables.find(workspace, target, rest[0])
-    options, arguments = names.parse(rest[1:])
-    return FoundProgram(target, rest[0], found, rest, arguments, options)
+    found = executables.find(workspace, target, further_words[0])
+    options, arguments = names.parse(further_words[1:])
+    return FoundProgram(target, further_words[0], found, further_words, arguments, options)
 
 
 def start_program(
@@ -108,7 +108,7 @@ def start_program(
     )
 
 
-def tell_unfound(workspace: Workspace, file: Path) -> str:
+def reason_not_found(workspace: Workspace, file: Path) -> str:
     """Return a sentence with the first reason why ROS 2 would not find a node or launch file.
 
     Return "" if ROS 2 would find the file.

@@ -15,7 +15,7 @@ from tftool.base.stamps import seconds
 from tftool.ros.host import names, user_code
 from tftool.ros.host.fibers import EndedError
 from tftool.ros.host.importing import environment, ros_free, ros_modules
-from tftool.ros.host.program import Program, let_outsiders_join
+from tftool.ros.host.program import Program, set_program_of_thread
 from tftool.ros.host.workspace import Workspace, use_workspace
 from tftool.ros.running import ProgramFailed
 from tftool.world.clock import Phase, SimClock, run
@@ -42,11 +42,11 @@ def ros_imports(root: Path, program_of_fixture: Callable[[], Program | None]) ->
         use_workspace(workspace)
         added = workspace.module_folders()
         sys.path[:0] = added
-        let_outsiders_join(program_of_fixture)
+        set_program_of_thread(program_of_fixture)
         try:
             yield
         finally:
-            let_outsiders_join(None)
+            set_program_of_thread(None)
             for folder in added:
                 sys.path.remove(folder)
 

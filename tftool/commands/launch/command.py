@@ -28,7 +28,7 @@ def run(connection: Connection, options: LaunchOptions) -> ExitStatus:
     with ros_free(force=options.force):
         use_workspace(workspace)
         path, rest = find_launch_file(workspace, options.words)
-        if unfound := running.tell_unfound(workspace, path):
+        if unfound := running.reason_not_found(workspace, path):
             notice(visible(unfound))
         arguments = parse_arguments(rest)
         if options.show_args:

@@ -172,7 +172,7 @@ def run(connection: Connection, options: RunOptions) -> int:
         use_workspace(workspace)
         found = running.find_program(workspace, options.target, words)
         file = found.executable.file if found.package is not None else None
-        if file is not None and (unfound := running.tell_unfound(workspace, file)):
+        if file is not None and (unfound := running.reason_not_found(workspace, file)):
             notice(visible(unfound))
         session = _opened(connection, options.place, alone=alone, simulated=options.simulated)
         connection.tell_read_only()

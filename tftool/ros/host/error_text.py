@@ -29,16 +29,16 @@ DEFINED = (
 )
 
 
-def missing_name(module: str, name: str, known: Sequence[str]) -> str:
+def missing_name(module: str, name: str, existing: Sequence[str]) -> str:
     """Return the error text for importing a name that tftool's version of a ROS module lacks.
 
     Args:
         module: ROS name of the module, such as "rclpy.node".
         name: The name that a program tried to import.
-        known: Names that the module has.
+        existing: Names that the module has.
     """
     # Propose only very similar names, because another name of ROS 2 is probably no misspelling.
-    near = near_names(name, known, alike=0.8)
+    near = near_names(name, existing, alike=0.8)
     package = module.partition(".")[0]
     elsewhere = sorted(
         one
@@ -50,35 +50,35 @@ def missing_name(module: str, name: str, known: Sequence[str]) -> str:
     elif elsewhere:
         hint = f"; {elsewhere[0]} has it."
     else:
-        hint = f"{_listed(module, known)}."
+        hint = f"{_listed(module, existing)}."
     remedy = DEFINED if package in INTERFACES.packages() else WHERE_TO_LOOK
     return f"'{name}' of {module} is not covered{hint} {_sentence(remedy)}"
 
 
-def undeclared(parameter: str, known: Iterable[str]) -> str:
+def undeclared(parameter: str, declared: Iterable[str]) -> str:
     """Return the warning that a node was started with a parameter that it never declares.
 
     Args:
         parameter: Name of the parameter.
-        known: Names of the parameters that the node declares, for "did you mean".
+        declared: Names of the parameters that the node declares, for "did you mean".
     """
-    hint = did_you_mean(parameter, known)
+    hint = did_you_mean(parameter, declared)
     return f"parameter '{parameter}' was set, but the node declares no such parameter{hint}"
 
 
-def near_keyword(keyword: str, called: Any) -> str:
-    """Return a hint "; did you mean …" with the parameter of `called` most similar to `keyword`.
+def near_keyword(keyword: str, callee: Any) -> str:
+    """Return a hint "; did you mean …" with the parameter of `callee` most similar to `keyword`.
 
     Args:
-        keyword: Keyword argument that `called` does not accept.
-        called: Function or class that the user's code called.
+        keyword: Keyword argument that `callee` does not accept.
+        callee: Function or class that the user's code called.
 
     Returns:
         The hint; "" if no parameter has a similar name.
     """
-    kinds = getattr(called, "__mro__", None)
+    kinds = getattr(callee, "__mro__", None)
     known: set[str] = set()
-    for function in [called] if kinds is None else [vars(one).get("__init__") for one in kinds]:
+    for function in [callee] if kinds is None else [vars(one).get("__init__") for one in kinds]:
         try:
             known |= set(inspect.signature(function).parameters)
         except (TypeError, ValueError):

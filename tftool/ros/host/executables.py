@@ -52,7 +52,7 @@ class HasItsOwnCommand(UsageError):
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class NodeRequest:
     """Request to start one of tftool's built-in nodes as `ros2 run` would start the ROS node.
 
     Attributes:
@@ -76,21 +76,21 @@ class Asked:
         """Remove a text parameter from `parameters` and return its value; see `take`."""
         return str(self.parameters.pop(name, default))
 
-    def take(self, name: str, default: T, fits: Callable[[Any], bool], what: str) -> T:
+    def take(self, name: str, default: T, is_valid: Callable[[Any], bool], description: str) -> T:
         """Remove a parameter from `parameters`; return its value, or `default` if it was not set.
 
         Args:
             name: Name of the parameter.
             default: Value of a parameter that was not set.
-            fits: Function that returns whether a value is valid.
-            what: Description of valid values for the error's text, such as "a number".
+            is_valid: Function that returns whether a value is valid.
+            description: Description of valid values for the error's text, such as "a number".
 
         Raises:
-            UsageError: If `fits` rejects the value.
+            UsageError: If `is_valid` rejects the value.
         """
         value: T = self.parameters.pop(name, default)
-        if isinstance(value, bool) is not isinstance(default, bool) or not fits(value):
-            raise UsageError(f"parameter '{name}' must be {what}, not {value!r}")
+        if isinstance(value, bool) is not isinstance(default, bool) or not is_valid(value):
+            raise UsageError(f"parameter '{name}' must be {description}, not {value!r}")
         return value
 
     def flag(self, name: str, default: bool) -> bool:
@@ -121,57 +121,59 @@ class Asked:
         ]
 
 
-def _turtlesim(asked: Asked) -> Node:
+def _turtlesim(request: NodeRequest) -> Node:
     background = Color(
-        asked.channel("background_r", BACKGROUND.r),
-        asked.channel("background_g", BACKGROUND.g),
-        asked.channel("background_b", BACKGROUND.b),
+        request.channel("background_r", BACKGROUND.r),
+        request.channel("background_g", BACKGROUND.g),
+        request.channel("background_b", BACKGROUND.b),
     )
     return Turtlesim(
-        asked.world,
-        asked.name,
-        holonomic=asked.flag("holonomic", False),
+        request.world,
+        request.name,
+        holonomic=request.flag("holonomic", False),
         background=background,
-        namespace=asked.namespace,
+        namespace=request.namespace,
     )
 
 
-def _broadcaster(asked: Asked) -> Node:
-    turtle = asked.text("turtlename", "turtle")
-    return Broadcaster(asked.world, asked.name, turtle=turtle)
+def _broadcaster(request: NodeRequest) -> Node:
+    turtle = request.text("turtlename", "turtle")
+    return Broadcaster(request.world, request.name, turtle=turtle)
 
 
-def _follower(asked: Asked) -> Node:
-    return Follower(asked.world, asked.name, leader=asked.text("target_frame", "turtle1"))
+def _follower(request: NodeRequest) -> Node:
+    return Follower(request.world, request.name, leader=request.text("target_frame", "turtle1"))
 
 
-def _static_turtle(asked: Asked) -> Node:
-    return StaticBroadcaster(asked.world, asked.name, transforms=[static_turtle(asked.arguments)])
+def _static_turtle(request: NodeRequest) -> Node:
+    return StaticBroadcaster(
+        request.world, request.name, transforms=[static_turtle(request.arguments)]
+    )
 
 
-def _static_publisher(asked: Asked) -> Node:
-    said = static_arguments.parse(asked.arguments)
+def _static_publisher(request: NodeRequest) -> Node:
+    said = static_arguments.parse(request.arguments)
     if said is None:
         raise UsageError(
             "static_transform_publisher has no --help here: 'tftool static --help' describes the "
             "same arguments"
         )
     sample = TransformStamped(0, said.parent, said.child, said.transform)
-    return StaticBroadcaster(asked.world, asked.name, transforms=[sample])
+    return StaticBroadcaster(request.world, request.name, transforms=[sample])
 
 
-def _mimic(asked: Asked) -> Node:
+def _mimic(request: NodeRequest) -> Node:
     topics = {"input/pose": "turtle1/pose", "output/cmd_vel": "turtle2/cmd_vel"}
     leader, copy = (
         end.removesuffix(tail) if end.endswith(tail) else default.removesuffix(tail)
         for end, tail, default in zip(
-            asked.remapped(*topics), ("/pose", "/cmd_vel"), topics.values(), strict=True
+            request.remapped(*topics), ("/pose", "/cmd_vel"), topics.values(), strict=True
         )
     )
-    return Mimic(asked.world, asked.name, leader=leader, copy=copy)
+    return Mimic(request.world, request.name, leader=leader, copy=copy)
 
 
-def _robot_of(asked: Asked) -> "Robot | None":
+def _robot_of(request: NodeRequest) -> "Robot | None":
     """Return the robot model for a node that publishes joint states or transforms of links.
 
     The model comes from the parameter robot_description, or from the URDF file whose path is the
@@ -183,49 +185,49 @@ def _robot_of(asked: Asked) -> "Robot | None":
     # Imported here, because few programs need a robot, and reading XML takes 10 ms.
     from tftool.robots.robot_model import load_urdf, parse_robot
 
-    text = asked.text("robot_description", "")
+    text = request.text("robot_description", "")
     if text:
-        return parse_robot(text, f"robot_description of {asked.name}")
-    if asked.arguments:
-        return load_urdf(asked.arguments[0])
+        return parse_robot(text, f"robot_description of {request.name}")
+    if request.arguments:
+        return load_urdf(request.arguments[0])
     return None
 
 
-def _robot_state_publisher(asked: Asked) -> Node:
-    robot = _robot_of(asked)
+def _robot_state_publisher(request: NodeRequest) -> Node:
+    robot = _robot_of(request)
     if robot is None:
         raise UsageError(
             "robot_state_publisher needs the parameter robot_description, the text of a URDF, "
             "or the name of a URDF file as its argument"
         )
     return RobotStatePublisher(
-        asked.world,
-        asked.name,
+        request.world,
+        request.name,
         robot=robot,
-        frame_prefix=asked.text("frame_prefix", ""),
-        publish_frequency=asked.number("publish_frequency", 20.0),
-        ignore_timestamp=asked.flag("ignore_timestamp", False),
-        topics=asked.remapped(JOINT_STATES, DESCRIPTION),
+        frame_prefix=request.text("frame_prefix", ""),
+        publish_frequency=request.number("publish_frequency", 20.0),
+        ignore_timestamp=request.flag("ignore_timestamp", False),
+        topics=request.remapped(JOINT_STATES, DESCRIPTION),
     )
 
 
-def _joint_state_publisher(asked: Asked) -> Node:
+def _joint_state_publisher(request: NodeRequest) -> Node:
     positions = {
-        name.removeprefix("zeros."): asked.number(name, 0.0)
-        for name in list(asked.parameters)
+        name.removeprefix("zeros."): request.number(name, 0.0)
+        for name in list(request.parameters)
         if name.startswith("zeros.")
     }
-    sources = asked.parameters.pop("source_list", [])
+    sources = request.parameters.pop("source_list", [])
     if not isinstance(sources, list) or not all(isinstance(one, str) for one in sources):
         raise UsageError(f"parameter 'source_list' must be a list of topics, not {sources!r}")
     return JointStatePublisher(
-        asked.world,
-        asked.name,
-        robot=_robot_of(asked),
+        request.world,
+        request.name,
+        robot=_robot_of(request),
         positions=positions,
-        rate=asked.number("rate", 10.0),
-        sources=asked.remapped(*sources),
-        topics=asked.remapped(JOINT_STATES, DESCRIPTION),
+        rate=request.number("rate", 10.0),
+        sources=request.remapped(*sources),
+        topics=request.remapped(JOINT_STATES, DESCRIPTION),
     )
 
 
@@ -233,11 +235,11 @@ TURTLE_TF_PACKAGES = ("turtle_tf2_py", "turtle_tf2_cpp")
 """Packages of ROS's tf2 tutorials with turtles."""
 
 
-def _plain(kind: Callable[[World, str], Node]) -> Callable[[Asked], Node]:
-    return lambda asked: kind(asked.world, asked.name)
+def _plain(kind: Callable[[World, str], Node]) -> Callable[[NodeRequest], Node]:
+    return lambda request: kind(request.world, request.name)
 
 
-_TURTLE_TF: dict[str, tuple[str, Callable[[Asked], Node]]] = {
+_TURTLE_TF: dict[str, tuple[str, Callable[[NodeRequest], Node]]] = {
     "turtle_tf2_broadcaster": ("turtle_tf2_frame_publisher", _broadcaster),
     "turtle_tf2_listener": ("turtle_tf2_frame_listener", _follower),
     "fixed_frame_tf2_broadcaster": ("fixed_frame_tf2_broadcaster", _plain(FixedCarrot)),
@@ -254,7 +256,7 @@ _TURTLE_TF: dict[str, tuple[str, Callable[[Asked], Node]]] = {
 }
 
 # By package and executable: the node's default name, and the function that creates the node.
-_OURS: dict[tuple[str, str], tuple[str, Callable[[Asked], Node]]] = {
+_OURS: dict[tuple[str, str], tuple[str, Callable[[NodeRequest], Node]]] = {
     ("turtlesim", "turtlesim_node"): ("turtlesim", _turtlesim),
     ("turtlesim", "draw_square"): ("draw_square", _plain(DrawSquare)),
     ("turtlesim", "mimic"): ("turtle_mimic", _mimic),
@@ -298,7 +300,7 @@ def names(workspace: Workspace) -> dict[tuple[str, str], Path | None]:
     found: dict[tuple[str, str], Path | None] = dict.fromkeys(_OURS)
     for package in workspace.packages.values():
         found |= {(package.name, name): file for name, file in package.programs.items()}
-        found |= {(package.name, name): package.place_of_script(name) for name in package.scripts}
+        found |= {(package.name, name): package.path_of_script(name) for name in package.scripts}
     return found
 
 
@@ -315,7 +317,7 @@ class FoundExecutable:
 
     body: Callable[[], None] | None = None
     file: Path | None = None
-    ours: tuple[str, Callable[[Asked], Node]] | None = None
+    ours: tuple[str, Callable[[NodeRequest], Node]] | None = None
 
 
 def find(workspace: Workspace, package: str | None, executable: str) -> FoundExecutable:
@@ -332,7 +334,7 @@ def find(workspace: Workspace, package: str | None, executable: str) -> FoundExe
         InputError: If the file cannot be read or is not valid Python.
     """
     # As in a sourced workspace, each package can import the others.
-    importing.look_behind(workspace.module_folders)
+    importing.search_last(workspace.module_folders)
     if package is None:
         return FoundExecutable(user_code.file_body(Path(executable)), Path(executable))
     found = workspace.packages.get(package)
@@ -393,7 +395,7 @@ def start(
 
 def _start_ours(
     world: World,
-    ours: tuple[str, Callable[[Asked], Node]],
+    ours: tuple[str, Callable[[NodeRequest], Node]],
     arguments: Sequence[str],
     options: RosOptions,
 ) -> Node:
@@ -403,7 +405,7 @@ def _start_ours(
     full = world.free_name(join(namespace, name))
     parameters = options.parameters_for(name, namespace)
     declared = dict(parameters)
-    node = make(Asked(world, full, namespace, arguments, parameters, options))
+    node = make(NodeRequest(world, full, namespace, arguments, parameters, options))
     if full in world.far_nodes:
         node.warn(named_twice(full))
     parameters.pop("use_sim_time", None)

@@ -116,7 +116,7 @@ class Fiber:
             stopped code that was still running at the end of the run.
         ended: Whether the code has ended.
         owner: Program that the fiber belongs to.
-        end: Function that returns the exception to raise in waits of an interrupted fiber.
+        end: Function that returns the exception which waits of an interrupted fiber raise.
         on_interrupt: Function called once in the fiber's thread, just before the first
             interrupted wait raises its exception.
     """
@@ -264,7 +264,7 @@ class Fiber:
         refused = late = 0
         # An interrupted fiber goes on, because its `finally` blocks may publish and call services.
         while refused < AFTERLIFE:
-            await self._turn(answer, go=not first or self._thread is not None)
+            await self._turn(answer, wake=not first or self._thread is not None)
             first = False
             request = self._request
             # A request of None means that the code has ended, or that an adopted thread was
@@ -304,12 +304,12 @@ class Fiber:
             f"{self.place() or 'no line of yours is running'}"
         )
 
-    async def _turn(self, answer: tuple[Any, BaseException | None], *, go: bool) -> None:
+    async def _turn(self, answer: tuple[Any, BaseException | None], *, wake: bool) -> None:
         """Let the thread run until its next request or the end of its code.
 
         Args:
             answer: Result and exception of the thread's last request.
-            go: Whether to wake the thread with `answer`; false at the first turn of an adopted
+            wake: Whether to wake the thread with `answer`; false at the first turn of an adopted
                 thread, which already runs.
         """
         if not self._strict:
@@ -317,7 +317,7 @@ class Fiber:
             loop = asyncio.get_running_loop()
             arrived = loop.create_future()
             self._arrived = (loop, arrived)
-        if go:
+        if wake:
             self._answer = answer
             self._go.release()
         if self._strict:
@@ -340,11 +340,11 @@ class Fiber:
         if self._thread is None:
             self._rest.acquire()
             return
-        if self._rests_within(self._patience):
+        if self._pauses_within(self._patience):
             return
         if not self._clock.interrupted:
             self._say_busy()
-            if self._rests_within(max(0.0, self._give_up - self._patience)):
+            if self._pauses_within(max(0.0, self._give_up - self._patience)):
                 return
         if self._clock.interrupted:
             self._end_now()
@@ -360,7 +360,7 @@ class Fiber:
             + (f"The code was at: {place}" if place else "None of your lines was running.")
         )
 
-    def _rests_within(self, limit: float) -> bool:
+    def _pauses_within(self, limit: float) -> bool:
         """Wait at most `limit` real seconds for a pause of the thread; return whether it paused.
 
         A signal such as Ctrl-C ends the wait early.

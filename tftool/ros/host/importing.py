@@ -148,7 +148,7 @@ def load(imported: import_table.ImportedName) -> Any:
 
 
 def _defined(ours: ModuleType) -> dict[str, Any]:
-    """Return the public names defined in one of tftool's modules, with their values.
+    """Return {name: value} of the public names that one of tftool's modules defines.
 
     Names that the module only imports are left out.
     """
@@ -161,14 +161,14 @@ def _defined(ours: ModuleType) -> dict[str, Any]:
     }
 
 
-def _names_in(package: str, below: str) -> list[str]:
+def _names_in(package: str, module: str) -> list[str]:
     """Return the names of the interfaces in a module of a package of interfaces.
 
     Args:
         package: Name of the package, such as "std_msgs".
-        below: Path of the module in the package, such as "msg" or "msg._string".
+        module: Path of the module in the package, such as "msg" or "msg._string".
     """
-    kind, _, own = below.partition(".")
+    kind, _, own = module.partition(".")
     names = INTERFACES.names(package, kind) if kind else []
     return [one for one in names if not own or own == f"_{import_table.snake_case(one)}"]
 
@@ -227,7 +227,7 @@ class _Finder(MetaPathFinder):
         if spec.submodule_search_locations is not None:
             # Copy to a list: Python's own object fails once the parent package is unloaded.
             spec.submodule_search_locations = list(spec.submodule_search_locations)
-        if not _is_users(_place(spec.origin, spec.submodule_search_locations), self.roots):
+        if not _is_users(_path_of(spec.origin, spec.submodule_search_locations), self.roots):
             return None
         if isinstance(spec.loader, importlib.machinery.SourceFileLoader):
             spec.loader = _UserLoader(fullname, str(spec.origin))
@@ -426,10 +426,10 @@ def _is_theirs(name: str) -> bool:
 
 
 def _file_of(module: ModuleType) -> Path:
-    return _place(getattr(module, "__file__", None), getattr(module, "__path__", None))
+    return _path_of(getattr(module, "__file__", None), getattr(module, "__path__", None))
 
 
-def _place(file: str | None, folders: Iterable[str] | None) -> Path:
+def _path_of(file: str | None, folders: Iterable[str] | None) -> Path:
     """Return the file of a module; for a package without a file, return its first folder."""
     return Path(file or next(iter(folders or ()), ""))
 
@@ -442,7 +442,7 @@ def _is_users(file: Path, roots: Iterable[Path]) -> bool:
     return False
 
 
-def look_in(root: Path) -> None:
+def search_first(root: Path) -> None:
     """Make `root` the first folder in which imports look for users' modules."""
     if _finder is not None:
         if root in _finder.roots:
@@ -450,11 +450,11 @@ def look_in(root: Path) -> None:
         _finder.roots.insert(0, root)
 
 
-def forget_in(folder: Path) -> None:
-    """Remove from `sys.modules` users' modules that would hide a file or folder in `folder`.
+def unload_hidden(folder: Path) -> None:
+    """Remove users' modules from `sys.modules` that have the name of a file in `folder`.
 
-    Two programs may have modules of the same name. Without the removal, an import for the second
-    program would return the module of the first.
+    Two programs may have modules of the same name. Without the removal, an import in the second
+    program would return the first program's module.
     """
     names = {one.stem for one in folder.iterdir()}
     roots = [] if _finder is None else _finder.roots
@@ -467,7 +467,7 @@ def forget_in(folder: Path) -> None:
             del sys.modules[name]
 
 
-def look_behind(roots: Callable[[], Iterable[str]]) -> None:
+def search_last(roots: Callable[[], Iterable[str]]) -> None:
     """Add folders in which imports look for users' modules, after the programs' own folders.
 
     Args:
@@ -486,7 +486,7 @@ def import_fresh(module: str, root: Path) -> ModuleType:
         ImportError: If the module, or a module that it imports, does not exist.
     """
     with IMPORTING:
-        look_in(root)
+        search_first(root)
         for name, imported in list(sys.modules.items()):
             if _is_users(_file_of(imported), [root]):
                 del sys.modules[name]

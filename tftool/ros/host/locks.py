@@ -60,7 +60,7 @@ class StateMonitor:
         owner = running_program()
         if timeout is not None and timeout <= 0.0:
             if owner is not None:
-                owner.looked_in_vain()
+                owner.count_failed_query()
             return False
         if owner is None:
             return self._block(take, timeout)

@@ -190,27 +190,27 @@ def check_namespace(namespace: str) -> None:
         raise UsageError(f"'{namespace}' cannot be a namespace: {fault.reason}")
 
 
-def expand(given: str, name: str, namespace: str) -> str:
+def expand(topic: str, node_name: str, namespace: str) -> str:
     """Return the full name of a topic or service, without leading slash.
 
     Args:
-        given: Relative (`x`), absolute (`/x`) or private (`~/x`) name.
-        name: The node's name.
+        topic: Relative (`x`), absolute (`/x`) or private (`~/x`) name.
+        node_name: The node's name.
         namespace: The node's namespace.
 
     Raises:
         UsageError: If ROS 2 refuses the topic name.
     """
-    fault = topic_name_fault(given)
+    fault = topic_name_fault(topic)
     if fault is not None:
-        raise UsageError(f"'{given}' cannot be a topic's or service's name: {fault.reason}")
-    known = {"node": name, "ns": namespace.strip("/"), "namespace": namespace.strip("/")}
-    given = _SUBSTITUTION.sub(lambda found: known[found[1]], given)
-    if given.startswith("/"):
-        return given.strip("/")
-    if given.startswith("~"):
-        return join(join(namespace, name), given[1:].strip("/"))
-    return join(namespace, given)
+        raise UsageError(f"'{topic}' cannot be a topic's or service's name: {fault.reason}")
+    known = {"node": node_name, "ns": namespace.strip("/"), "namespace": namespace.strip("/")}
+    topic = _SUBSTITUTION.sub(lambda found: known[found[1]], topic)
+    if topic.startswith("/"):
+        return topic.strip("/")
+    if topic.startswith("~"):
+        return join(join(namespace, node_name), topic[1:].strip("/"))
+    return join(namespace, topic)
 
 
 def parse(argv: Sequence[str]) -> tuple[RosOptions, list[str]]:

@@ -63,13 +63,13 @@ class Package:
                     return path
         return None
 
-    def place_of_script(self, name: str) -> Path:
+    def path_of_script(self, name: str) -> Path:
         """Return the path that a console script would get if installed into the source folder."""
         return self.path / "lib" / self.name / name
 
     def executable_at(self, path: Path) -> str | None:
         """Return the name of the executable whose file is `path`; None if there is none."""
-        if path.name in self.scripts and path == self.place_of_script(path.name):
+        if path.name in self.scripts and path == self.path_of_script(path.name):
             return path.name
         is_node = path == self.script_file(path.name) and b"rclpy" in path.read_bytes()
         return path.name if is_node else None

@@ -74,7 +74,7 @@ class Program(Node):
         failure: Exception that ended the program; None if the program has not failed.
         status: Exit status once the program has ended; None before.
         nodes: State (`rclpy.seat.NodeSeat`) of each rclpy node; empty after the program's end.
-        unserved: Destroyed nodes, with the number of callbacks that no executor ever called.
+        unserved: Destroyed nodes that were never spun, each with its number of callbacks.
         event_loops: Event loops of asyncio that the program created, closed at its end.
         lines_with_angles: Lines of code that were already checked for angles in degrees.
         advice: Functions called at the end of the run; each returns a hint about the program's
@@ -236,15 +236,15 @@ class Program(Node):
         text = f"{names} has been busy for {fibers.PATIENCE:g} s and {wait}: {where}"
         self.say("WARN", self.name, text)
 
-    def say(self, level: Level, speaker: str, text: str) -> None:
+    def say(self, level: Level, logger: str, text: str) -> None:
         """Add a message of this program to the log; call this in the event loop's thread.
 
         Args:
             level: Level of the message.
-            speaker: Name of the logger.
+            logger: Name of the logger.
             text: The message.
         """
-        self.world.log.add(level, speaker, text, program=self.label)
+        self.world.log.add(level, logger, text, program=self.label)
 
     # The fibers' side.
 
@@ -304,15 +304,15 @@ class Program(Node):
         self._count(1.0 / READINGS)
         return self.clock.now()
 
-    def looked_in_vain(self, *, must_keep_pace: bool = True) -> None:
-        """Count a query that failed at once, such as a lookup, to recognise a loop that only polls.
+    def count_failed_query(self, *, must_keep_pace: bool = True) -> None:
+        """Count a query, such as a lookup, that failed without waiting.
 
-        On the simulated clock such a loop would stop time. After many queries, time therefore
+        A loop that repeats the query would stop simulated time. After many queries, time therefore
         advances by a small step.
 
         Args:
-            must_keep_pace: Whether these steps must stay short, because the loop may execute
-                callbacks or use transforms.
+            must_keep_pace: Whether all steps must be short, because the loop may execute
+                callbacks or use transforms; if false, the steps may grow.
         """
         if must_keep_pace:
             self._ticks = 0
@@ -372,10 +372,10 @@ class Program(Node):
             self._ticks = self._ticks + 1 if now == self._polled_until else 0
             tick = min(TICK << self._ticks // TICKS, LONGEST_TICK)
             fiber.ask(partial(self.clock.sleep, tick, self.turn, self.rank))
-            self._note_polling(now)
+            self._warn_of_polling(now)
 
-    def _note_polling(self, start: Stamp) -> None:
-        """Log one warning when the code has polled in a loop for `GIVE_UP` real seconds.
+    def _warn_of_polling(self, start: Stamp) -> None:
+        """Log a warning once the code has polled in a loop for `GIVE_UP` real seconds.
 
         Args:
             start: Time on tftool's clock at which this poll began, nanoseconds.
@@ -420,14 +420,15 @@ async def _as_coroutine(request: Callable[[], Any]) -> Any:
     return await value if isinstance(value, Awaitable) else value
 
 
-def let_outsiders_join(found: "Callable[[], Program | None] | None") -> None:
+def set_program_of_thread(program_of_thread: "Callable[[], Program | None] | None") -> None:
     """Set the function that returns the program of a thread without a fiber.
 
     Args:
-        found: The function, which may return None for no program; None removes an earlier function.
+        program_of_thread: Function that returns the program, or None for no program. If the
+            argument is None, an earlier function is removed.
     """
     global _outsiders
-    _outsiders = found
+    _outsiders = program_of_thread
 
 
 _outsiders: "Callable[[], Program | None] | None" = None

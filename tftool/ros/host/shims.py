@@ -98,11 +98,11 @@ class UserThread(threading.Thread):
             super().start()
             return
         self._owner = owner
-        self._fiber = fiber = owner.new_fiber(self.name, self._run_told)
+        self._fiber = fiber = owner.new_fiber(self.name, self._run_and_log)
         # The task is in a list, because `ask` would await a task itself.
         (self._task,) = owner.ask(lambda: [owner.start_fiber(fiber)])
 
-    def _run_told(self) -> None:
+    def _run_and_log(self) -> None:
         """Run the thread's function and log its exception; the program's other threads continue."""
         try:
             self.run()

@@ -67,8 +67,8 @@ def load_module(path: Path, name: str = "", code: CodeType | None = None) -> Mod
             # An import of this name must find the package, not the file of the same name in it.
             folders.reverse()
     for root in folders:
-        importing.look_in(root)
-    importing.forget_in(folder)
+        importing.search_first(root)
+    importing.unload_hidden(folder)
     module.__file__ = str(path)
     module.__dict__["__builtins__"] = builtins_for_users()
     exec(code, module.__dict__)

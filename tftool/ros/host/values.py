@@ -15,27 +15,31 @@ from tftool.world.world import TransformMessage
 TF_TOPICS = ("tf", "tf_static")
 
 
-def carried(kind: type[Message], topic: str) -> type[Any]:
-    """Return tftool's class of the values on a topic, for the user's message class `kind`."""
-    if kind.interface__ == TransformMessage.interface__ and topic in TF_TOPICS:
+def topic_class(message_class: type[Message], topic: str) -> type[Any]:
+    """Return tftool's class for the values on a topic whose messages have the given class."""
+    if message_class.interface__ == TransformMessage.interface__ and topic in TF_TOPICS:
         return TransformMessage
-    plain = plain_name(kind.interface__)
-    return kind if plain == kind.interface__ else INTERFACES.message(plain)
+    plain = plain_name(message_class.interface__)
+    return message_class if plain == message_class.interface__ else INTERFACES.message(plain)
 
 
-def pack(message: Any, kind: type[Any]) -> Any:
-    """Copy a user's message to a new value of class `kind`, ready for a topic of tftool."""
-    return _pack_transforms(message) if kind is TransformMessage else recast(message, kind)
+def pack(message: Any, value_class: type[Any]) -> Any:
+    """Copy a user's message to a new value of the class `value_class`, for a topic of tftool."""
+    return (
+        _pack_transforms(message)
+        if value_class is TransformMessage
+        else recast(message, value_class)
+    )
 
 
-def unpack(value: Any, kind: type[Message]) -> Any:
-    """Convert a value of tftool to a new message of the class `kind` for a user's program.
+def unpack(value: Any, message_class: type[Message]) -> Any:
+    """Convert a value of tftool to a new message of the class `message_class`.
 
     The value comes from a topic, a service or an action. None gives a message with default values.
     """
     if isinstance(value, TransformMessage):
         return unpack_transforms(value)
-    return kind() if value is None else recast(value, kind)
+    return message_class() if value is None else recast(value, message_class)
 
 
 def stamp_of(message: Any) -> Stamp:

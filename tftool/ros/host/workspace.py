@@ -37,13 +37,13 @@ class ShareFolder:
         weakref.finalize(self, shutil.rmtree, self.path, ignore_errors=True)
         parents = {str(one) for place in installed for one in PurePosixPath(place).parents}
         for parent in sorted(parents):
-            self._show(source, parent, parents)
+            self._link(source, parent, parents)
         for place, file in installed.items():
             target = self.path / place
             if not target.exists():
                 _link(file, target)
 
-    def _show(self, source: Path, below: str, parents: set[str]) -> None:
+    def _link(self, source: Path, below: str, parents: set[str]) -> None:
         """Link the entries of one source folder, except hidden entries and __pycache__.
 
         Args:
@@ -177,7 +177,7 @@ class Workspace:
         )
         return list(dict.fromkeys(folders))
 
-    def folder_without_mark(self, name: str) -> Path | None:
+    def folder_without_manifest(self, name: str) -> Path | None:
         """Return a folder named `name` that has Python files but no package.xml or setup.py.
 
         Return None if there is no such folder.
@@ -244,9 +244,9 @@ class Workspace:
 _current: list[Workspace] = []
 
 
-def use_workspace(searched: Workspace) -> None:
+def use_workspace(workspace: Workspace) -> None:
     """Set the workspace that `current` returns."""
-    _current[:] = [searched]
+    _current[:] = [workspace]
 
 
 def current() -> Workspace:
@@ -256,7 +256,7 @@ def current() -> Workspace:
     return _current[0]
 
 
-def missing_package(name: str, workspace: Workspace, ours: tuple[str, ...] = ()) -> str:
+def missing_package(name: str, workspace: Workspace, provided: tuple[str, ...] = ()) -> str:
     """Return the error text for a package that is not in the workspace.
 
     The text suggests a package with a similar name, suggests adding a package.xml, or lists all
@@ -265,14 +265,14 @@ def missing_package(name: str, workspace: Workspace, ours: tuple[str, ...] = ())
     Args:
         name: Name of the unknown package.
         workspace: Workspace that was searched.
-        ours: Names of the packages that tftool provides.
+        provided: Names of the packages that tftool provides.
     """
-    known = [*workspace.packages, *ours]
+    known = [*workspace.packages, *provided]
     near = near_names(name, known)
     hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(sorted(known))}"
     where = f"below {workspace.start} or in the src folder around it"
     skipped = "".join(f"\n{one}" for one in workspace.skipped)
-    without = workspace.folder_without_mark(name)
+    without = workspace.folder_without_manifest(name)
     inside = [one for one, package in workspace.packages.items() if package.path.name == name]
     if inside:
         hint = f"the package in folder '{name}' is called '{inside[0]}': use this name"

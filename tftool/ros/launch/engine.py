@@ -98,7 +98,7 @@ class Launch(Node):
         self.context.load, self.context.launch = load_file, self
         if isinstance(source, Path):
             # Launch files import modules of the workspace's packages, too.
-            importing.look_behind(self.context.workspace.module_folders)
+            importing.search_last(self.context.workspace.module_folders)
             self.description = load_file(source)
             self.context.enter_file(source)
             refuse_unknown(

@@ -370,7 +370,7 @@ class ExecutableInPackage(Substitution):
         name = perform(context, self.executable)
         package = context.workspace.package(perform(context, self.package))
         if name in package.scripts:
-            return str(package.place_of_script(name))
+            return str(package.path_of_script(name))
         found = package.script_file(name)
         if found is None:
             raise SubstitutionFailure(f"package '{package.name}' has no executable '{name}'")

@@ -369,7 +369,7 @@ def run_tests(path: Path, arguments: Sequence[str]) -> None:
         SystemExit: With status 1, if a test fails.
     """
     # Tests import modules of the workspace's packages, too.
-    importing.look_behind(current().module_folders)
+    importing.search_last(current().module_folders)
     module = user_code.load_module(path)
     runner = LaunchTestRunner(LoadTestsFromPythonModule(module, name=path.stem), arguments)
     runner.validate()

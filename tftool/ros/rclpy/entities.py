@@ -132,7 +132,7 @@ class Requester(WorkQueue):
         """Return whether a server is available now; this method can be called in any thread."""
         ready = bool(self.seat.program.ask(self.is_served))
         if not ready:
-            self.seat.program.looked_in_vain(must_keep_pace=False)
+            self.seat.program.count_failed_query(must_keep_pace=False)
         return ready
 
     def wait_for_server(self, timeout_sec: float | None = None) -> bool:
@@ -215,7 +215,7 @@ class CallbackGroup:
         raise NotImplementedError
 
     def beginning_execution(self, entity: Any) -> bool:
-        """Count a callback as running; only return False if the group's rule forbids it now."""
+        """Count a callback as running; if the group's rule forbids this now, return False."""
         if not self.can_execute(entity):
             return False
         self.busy += 1

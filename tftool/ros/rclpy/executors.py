@@ -200,7 +200,7 @@ class Executor:
         found = self._program.ask(partial(self._next, deadline, future))
         self._raise_failure()
         if found is None:
-            self._program.looked_in_vain()
+            self._program.count_failed_query()
             return False
         entity, work = found
         group = None if entity.passes_busy_group else entity.callback_group
@@ -293,9 +293,9 @@ class Executor:
                 self._wakers.remove(waker)
 
     def _take(self) -> tuple[NodeEntity, Work] | None:
-        """Return the next ready entity and its work; None if no entity is ready.
+        """Return the next ready entity and its work.
 
-        In the latter case, `_due` is the time of the next timer.
+        If no entity is ready, return None, and store the time of the next timer in `_due`.
         """
         for collected in (False, True):
             if collected:
@@ -309,7 +309,7 @@ class Executor:
         return None
 
     def _collect(self) -> None:
-        """Put the ready entities of all nodes into the batch; of each node, its timers first."""
+        """Put the ready entities of all nodes into the batch; each node's timers come first."""
         self._due = None
         for seat in list(self._seats):
             timers = [one for one in seat.entities if isinstance(one, Timer)]

@@ -12,11 +12,11 @@ class _Stepping(threading.local):
     """State of one thread: the asyncio task inside which an executor runs a step of a `Task`.
 
     Attributes:
-        beneath: The asyncio task; None if no executor runs a step, or the executor runs outside of
-            asyncio.
+        asyncio_task: The asyncio task; None if no executor runs a step, or the executor runs
+            outside of asyncio.
     """
 
-    beneath: "asyncio.Task[Any] | None" = None
+    asyncio_task: "asyncio.Task[Any] | None" = None
 
 
 _STEPPING = _Stepping()
@@ -47,15 +47,15 @@ class Future:
     def __await__(self) -> Generator[Any, None, Any]:
         task = _asyncio_task()
         # If tasks of asyncio and of an executor are nested, the innermost one decides how to wait.
-        in_asyncio = task is not None and task is not _STEPPING.beneath
+        in_asyncio = task is not None and task is not _STEPPING.asyncio_task
         while not self._done and not self._cancelled:
             if in_asyncio:
-                yield from self._over_there(asyncio.get_running_loop())
+                yield from self._wait_in_asyncio(asyncio.get_running_loop())
             else:
                 yield self
         return self.result()
 
-    def _over_there(self, loop: asyncio.AbstractEventLoop) -> Generator[Any, None, None]:
+    def _wait_in_asyncio(self, loop: asyncio.AbstractEventLoop) -> Generator[Any, None, None]:
         """Wait for this future in a task of asyncio, without blocking asyncio's event loop."""
         over = loop.create_future()
 
@@ -204,7 +204,7 @@ class Task(Future):
         """
         if self._done or self._cancelled:
             return None
-        beneath, _STEPPING.beneath = _STEPPING.beneath, _asyncio_task()
+        asyncio_task, _STEPPING.asyncio_task = _STEPPING.asyncio_task, _asyncio_task()
         self._is_stepping = True
         try:
             if self._coroutine is None and self._handler is not None:
@@ -221,7 +221,7 @@ class Task(Future):
             self.set_exception(error)
         finally:
             self._is_stepping = False
-            _STEPPING.beneath = beneath
+            _STEPPING.asyncio_task = asyncio_task
         return None
 
     def executing(self) -> bool:

@@ -107,22 +107,22 @@ class StateMachine:
         """Transitions that start in the current state."""
         return [one for one in GRAPH if one.start == self.state.label]
 
-    def take(self, wanted: str | int) -> Transition:
+    def take(self, transition: str | int) -> Transition:
         """Change to the state that a transition leads to; return the transition.
 
         Args:
-            wanted: Name or number of the transition.
+            transition: Name or number of the transition.
 
         Raises:
             RuntimeError: If the transition does not start in the current state.
         """
         for one in self.available_transitions:
-            if wanted in (one.label, one.number):
+            if transition in (one.label, one.number):
                 self.state = LifecycleState(one.goal, STATES[one.goal])
                 return one
         possible = ", ".join(one.label for one in self.available_transitions) or "none"
         raise RuntimeError(
-            f"state '{self.state.label}' has no transition '{wanted}' (it has {possible})"
+            f"state '{self.state.label}' has no transition '{transition}' (it has {possible})"
         )
 
 
@@ -193,7 +193,7 @@ class LifecyclePublisher(SimpleManagedEntity, Publisher):
             super().publish(msg)
 
 
-def _telling(callback: str) -> Any:
+def _notifying_method(callback: str) -> Any:
     """Return the default method for a transition's callback, such as "on_activate".
 
     The method calls the same callback of each managed entity.
@@ -211,7 +211,7 @@ def _telling(callback: str) -> Any:
     return tell
 
 
-def _triggering(transition: str, change_of_state: str) -> Any:
+def _trigger_method(transition: str, change_of_state: str) -> Any:
     """Return a method of lifecycle nodes such as `trigger_activate`, which runs a transition.
 
     Args:
@@ -230,12 +230,12 @@ def _triggering(transition: str, change_of_state: str) -> Any:
 class LifecycleNodeMixin(ManagedEntity):
     """Methods and services that make a node a lifecycle node."""
 
-    on_configure = _telling("on_configure")
-    on_cleanup = _telling("on_cleanup")
-    on_shutdown = _telling("on_shutdown")
-    on_activate = _telling("on_activate")
-    on_deactivate = _telling("on_deactivate")
-    on_error = _telling("on_error")
+    on_configure = _notifying_method("on_configure")
+    on_cleanup = _notifying_method("on_cleanup")
+    on_shutdown = _notifying_method("on_shutdown")
+    on_activate = _notifying_method("on_activate")
+    on_deactivate = _notifying_method("on_deactivate")
+    on_error = _notifying_method("on_error")
 
     def __init__(
         self, *, enable_communication_interface: bool = True, callback_group: Any = None
@@ -248,11 +248,11 @@ class LifecycleNodeMixin(ManagedEntity):
         if enable_communication_interface:
             _serve(self, callback_group)
 
-    trigger_configure = _triggering("configure", "unconfigured to inactive")
-    trigger_cleanup = _triggering("cleanup", "inactive to unconfigured")
-    trigger_activate = _triggering("activate", "inactive to active")
-    trigger_deactivate = _triggering("deactivate", "active to inactive")
-    trigger_shutdown = _triggering("shutdown", "any state to finalized")
+    trigger_configure = _trigger_method("configure", "unconfigured to inactive")
+    trigger_cleanup = _trigger_method("cleanup", "inactive to unconfigured")
+    trigger_activate = _trigger_method("activate", "inactive to active")
+    trigger_deactivate = _trigger_method("deactivate", "active to inactive")
+    trigger_shutdown = _trigger_method("shutdown", "any state to finalized")
 
     def add_managed_entity(self, entity: ManagedEntity) -> None:
         """Add an entity whose callbacks this node calls at every transition."""
@@ -287,19 +287,19 @@ class LifecycleNode(LifecycleNodeMixin, Node):
         )
 
 
-def change(node: LifecycleNodeMixin, wanted: str | int) -> TransitionCallbackReturn:
+def change(node: LifecycleNodeMixin, transition: str | int) -> TransitionCallbackReturn:
     """Run a lifecycle transition of a node; return the result of the transition's callback.
 
     Args:
         node: The node.
-        wanted: Name or number of the transition.
+        transition: Name or number of the transition.
 
     Raises:
         RuntimeError: If the transition does not start in the node's current state.
     """
     machine = node._state_machine
     before = machine.state
-    _announce(node, machine.take(wanted))
+    _announce(node, machine.take(transition))
     said = result = _ask(node, before)
     _announce(node, machine.take(result.to_label()))
     if said is TransitionCallbackReturn.ERROR:

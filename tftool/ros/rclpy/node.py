@@ -220,30 +220,34 @@ class Node(NodeGraph, NodeParameters):
         return made
 
     def __profile(
-        self, kind: Any, full: str, given: QoSProfile | int, options: QoSOverridingOptions | None
+        self,
+        entity_class: Any,
+        full_name: str,
+        profile_or_depth: QoSProfile | int,
+        options: QoSOverridingOptions | None,
     ) -> QoSProfile:
         """Return the QoS profile for a new publisher or subscription.
 
         With `options`, also declare parameters with which the user can change the profile.
 
         Args:
-            kind: Class Publisher or Subscription.
-            full: Full name of the topic.
-            given: Profile, or depth of the default profile.
+            entity_class: Class Publisher or Subscription.
+            full_name: Full name of the topic.
+            profile_or_depth: Profile, or depth of the default profile.
             options: Policies that get parameters; None to declare no parameters.
         """
-        profile = profile_of(given)
+        profile = profile_of(profile_or_depth)
         if options is not None:
             profile = copy.copy(profile)
-            declare_qos_parameters(kind, self, f"/{full}", profile, options)
+            declare_qos_parameters(entity_class, self, f"/{full_name}", profile, options)
         return profile
 
-    def __watch(self, made: Any, group: Any, wanted: Any) -> None:
+    def __watch(self, endpoint: Any, group: Any, callbacks: Any) -> None:
         """Register the user's event callbacks of a new publisher or subscription, if any."""
-        if wanted is None:
+        if callbacks is None:
             return
         group = group or self._default_callback_group
-        made.event_watch = self.__keep(EndpointWatch, group, made.endpoint, wanted)
+        endpoint.event_watch = self.__keep(EndpointWatch, group, endpoint.endpoint, callbacks)
 
     def create_timer(
         self,
@@ -368,7 +372,7 @@ class Node(NodeGraph, NodeParameters):
 
     def destroy_node(self) -> None:
         """Destroy the node and all its publishers, subscriptions, timers, clients and services."""
-        self._tftool.leave()
+        self._tftool.destroy_node()
 
     @property
     def publishers(self) -> Iterator[Publisher]:

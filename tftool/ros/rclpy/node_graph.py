@@ -168,7 +168,7 @@ class NodeGraph:
     def __count(self, topic_name: str, role: Role) -> int:
         count = len(self.__ends(topic_name, role))
         if not count:
-            self._tftool.program.looked_in_vain(must_keep_pace=False)
+            self._tftool.program.count_failed_query(must_keep_pace=False)
         return count
 
     def get_publishers_info_by_topic(
@@ -192,12 +192,16 @@ class NodeGraph:
     def get_service_names_and_types(self) -> NamesAndTypes:
         """Return (name, known types) of every service that has a server or a client."""
         clients = self._tftool.world.clients
-        return self.__look(lambda: _listed(chain(self.__served(), _held(None, clients, CLIENT))))
+        return self.__look(
+            lambda: _listed(
+                chain(self.__offered_services(), _endpoint_names(None, clients, CLIENT))
+            )
+        )
 
-    def __served(self, by: str | None = None) -> Iterator[tuple[str, str]]:
-        """Yield (name, type) of the services that the node `by` offers; None for all services."""
+    def __offered_services(self, node: str | None = None) -> Iterator[tuple[str, str]]:
+        """Yield (name, type) of each service that `node` offers; None for all nodes."""
         for name, offer in self._tftool.world.services().items():
-            if by in (None, offer.node):
+            if node in (None, offer.node):
                 yield name, interface_name(offer.kind)
 
     def count_services(self, service_name: str) -> int:
@@ -217,27 +221,31 @@ class NodeGraph:
     ) -> NamesAndTypes:
         """Return (name, types) of each topic that a ROS node publishes."""
         endpoints = self._tftool.world.endpoints
-        return _of_node(self._tftool, node_name, node_namespace, _held, endpoints, PUBLISHER)
+        return _of_node(
+            self._tftool, node_name, node_namespace, _endpoint_names, endpoints, PUBLISHER
+        )
 
     def get_subscriber_names_and_types_by_node(
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> NamesAndTypes:
         """Return (name, types) of each topic to which a ROS node subscribes."""
         endpoints = self._tftool.world.endpoints
-        return _of_node(self._tftool, node_name, node_namespace, _held, endpoints, SUBSCRIPTION)
+        return _of_node(
+            self._tftool, node_name, node_namespace, _endpoint_names, endpoints, SUBSCRIPTION
+        )
 
     def get_service_names_and_types_by_node(
         self, node_name: str, node_namespace: str
     ) -> NamesAndTypes:
         """Return (name, types) of each service that a node offers."""
-        return _of_node(self._tftool, node_name, node_namespace, self.__served)
+        return _of_node(self._tftool, node_name, node_namespace, self.__offered_services)
 
     def get_client_names_and_types_by_node(
         self, node_name: str, node_namespace: str
     ) -> NamesAndTypes:
         """Return (name, types) of each service for which a ROS node has a client."""
         clients = self._tftool.world.clients
-        return _of_node(self._tftool, node_name, node_namespace, _held, clients, CLIENT)
+        return _of_node(self._tftool, node_name, node_namespace, _endpoint_names, clients, CLIENT)
 
 
 def get_action_names_and_types(node: Any) -> NamesAndTypes:
@@ -277,16 +285,18 @@ def _node_names(seat: NodeSeat) -> list[str]:
     return [*(one.name for one in seat.world.nodes if one.is_shown), *seat.world.far_nodes]
 
 
-def _held(node: str | None, ends: Endpoints, role: Role) -> Iterator[tuple[str, str]]:
-    """Yield (name, type) of each publisher, subscription or client of a node.
+def _endpoint_names(
+    node: str | None, endpoints: Endpoints, role: Role
+) -> Iterator[tuple[str, str]]:
+    """Yield (topic or service, type) for each publisher, subscription or client of a node.
 
     Args:
         node: Full name of the node; None for all nodes.
-        ends: Endpoints to search.
+        endpoints: Endpoints to search.
         role: Role of the endpoints to yield, such as publisher.
     """
-    for name in ends.topics():
-        for end in ends.of(name, role):
+    for name in endpoints.topics():
+        for end in endpoints.of(name, role):
             if node in (None, end.node):
                 yield name, end.interface
 
@@ -298,7 +308,7 @@ def _served_actions(by: str | None, seat: NodeSeat) -> Iterator[tuple[str, str]]
 
 
 def _sought_actions(by: str | None, seat: NodeSeat) -> Iterator[tuple[str, str]]:
-    for name, kind in _held(by, seat.world.clients, CLIENT):
+    for name, kind in _endpoint_names(by, seat.world.clients, CLIENT):
         if name.endswith("/_action/send_goal"):
             yield name.removesuffix("/_action/send_goal"), kind.removesuffix("_SendGoal")
 

@@ -59,7 +59,7 @@ class NodeParameters:
                 if name not in self._parameters:
                     self.__declare_one(name, value, None, False)
 
-    def __tell(
+    def __publish_event(
         self,
         *,
         new: Sequence[Parameter] = (),
@@ -160,7 +160,7 @@ class NodeParameters:
             del self._descriptors[name]
             raise InvalidParameterValueException(name, value, reason or "refused by a callback")
         self._parameters[name] = parameter
-        self.__tell(new=[parameter])
+        self.__publish_event(new=[parameter])
         return parameter
 
     def undeclare_parameter(self, name: str) -> None:
@@ -168,7 +168,7 @@ class NodeParameters:
         self.__known(name)
         if self._descriptors[name].read_only:
             raise ParameterImmutableException(name)
-        self.__tell(deleted=[self._parameters[name]])
+        self.__publish_event(deleted=[self._parameters[name]])
         del self._parameters[name], self._descriptors[name]
 
     # Reading
@@ -331,7 +331,7 @@ class NodeParameters:
                 )(name=one.name, type=int(one.type_), dynamic_typing=True)
         new = [one for one in new if one not in deleted]
         changed = [one for one in changes if one not in new and one not in deleted]
-        self.__tell(new=new, changed=changed, deleted=deleted)
+        self.__publish_event(new=new, changed=changed, deleted=deleted)
         for after in self._post_set_parameters_callbacks:
             after(changes)
 

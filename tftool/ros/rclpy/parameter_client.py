@@ -237,7 +237,7 @@ class ParameterEventHandler:
         _remove(self._of_all, handle)
 
     def configure_nodes_filter(self, node_names: Iterable[str] | None = None) -> bool:
-        """Return True if no names are given; otherwise False, because tftool ignores the names.
+        """Return True without names; return False with names, which tftool ignores.
 
         This handler always gets the parameter events of all nodes.
         """

@@ -233,18 +233,18 @@ def profile_from(quality: Quality) -> QoSProfile:
     )
 
 
-def profile_of(given: "QoSProfile | int") -> QoSProfile:
-    """Return `given` if it is a QoS profile; for a depth, the default profile with this depth.
+def profile_of(profile_or_depth: "QoSProfile | int") -> QoSProfile:
+    """Return a QoS profile unchanged; for a depth, return the default profile with this depth.
 
     Raises:
-        TypeError: If `given` is neither a profile nor an integer.
+        TypeError: If the argument is neither a profile nor an integer.
         ValueError: If the depth is negative.
     """
-    if isinstance(given, QoSProfile):
-        return given
-    if not isinstance(given, int):
-        raise TypeError(f"Expected QoSProfile or int, but received {type(given)!r}")
-    return QoSProfile(depth=given)
+    if isinstance(profile_or_depth, QoSProfile):
+        return profile_or_depth
+    if not isinstance(profile_or_depth, int):
+        raise TypeError(f"Expected QoSProfile or int, but received {type(profile_or_depth)!r}")
+    return QoSProfile(depth=profile_or_depth)
 
 
 qos_profile_default = QoSProfile(depth=10)

@@ -108,18 +108,18 @@ class SubscriptionEventCallbacks:
 class Silence:
     """Timer that calls a function when nothing has been recorded for longer than a limit."""
 
-    def __init__(self, seat: NodeSeat, limit: int | None, told: Callable[[], object]) -> None:
+    def __init__(self, seat: NodeSeat, limit: int | None, on_silence: Callable[[], object]) -> None:
         """Create the timer; the first call of `end` starts it.
 
         Args:
             seat: tftool's state of the node, whose clock is used.
             limit: Longest allowed time between two calls of `end`, in nanoseconds; None for no
                 limit.
-            told: Function called in the event loop's thread when the limit has passed.
+            on_silence: Function called in the event loop's thread when the limit has passed.
         """
         self._seat = seat
         self._limit = limit
-        self._told = told
+        self._on_silence = on_silence
         self._last = 0
         self._timer: asyncio.Future[None] | None = None
 
@@ -148,38 +148,38 @@ class Silence:
         if self._seat.world.clock.now() < self._last + limit:
             self._wait(limit)
         else:
-            self._told()
+            self._on_silence()
 
 
 class EndpointWatch(WorkQueue):
     """Work queue that calls the user's callbacks for events of one publisher or subscription."""
 
-    def __init__(self, seat: NodeSeat, group: Any, own: Endpoint, wanted: Any) -> None:
+    def __init__(self, seat: NodeSeat, group: Any, endpoint: Endpoint, callbacks: Any) -> None:
         """Watch a publisher or subscription for events; call this in the event loop's thread.
 
         Args:
             seat: tftool's state of the node.
             group: Callback group of the callbacks.
-            own: The publisher or subscription in the graph.
-            wanted: The user's callbacks.
+            endpoint: The publisher or subscription in the graph.
+            callbacks: The user's callbacks.
         """
         super().__init__(seat, group)
-        self._own = own
-        self._wanted = wanted
+        self._endpoint = endpoint
+        self._callbacks = callbacks
         self._matched = QoSMatchedInfo()
         self._unfit = QoSIncompatibleInfo()
         self._missed = QoSCountInfo()
         self._lost = QoSCountInfo()
         self._lives = QoSLivelinessChangedInfo()
         self._seen: list[Endpoint] = []
-        timing = own.quality.timing
-        limit = None if timing is None or wanted.deadline is None else timing.deadline
+        timing = endpoint.quality.timing
+        limit = None if timing is None or callbacks.deadline is None else timing.deadline
         self._deadline = Silence(seat, limit, self._miss)
         self._stop = seat.world.watch(self._look, seat.authority)
         self._look()
 
     def _look(self) -> None:
-        own = self._own
+        own = self._endpoint
         publishes = own.role == PUBLISHER
         others = [
             one
@@ -208,13 +208,13 @@ class EndpointWatch(WorkQueue):
                 before.current_count + fitting - leaving,
                 fitting - leaving,
             )
-            self._tell(self._wanted.matched, self._matched)
+            self._tell(self._callbacks.matched, self._matched)
         unfit = [policy(one) for one in new if policy(one)]
         if unfit:
             total = self._unfit.total_count + len(unfit)
             kind = QoSPolicyKind[unfit[-1]]
             self._unfit = QoSIncompatibleInfo(total, len(unfit), kind)
-            self._tell(self._wanted.incompatible_qos, self._unfit)
+            self._tell(self._callbacks.incompatible_qos, self._unfit)
 
     def _look_who_lives(self, publishers: list[Endpoint]) -> None:
         alive = sum(map(self.seat.world.endpoints.is_alive, publishers))
@@ -222,7 +222,7 @@ class EndpointWatch(WorkQueue):
         changes = (alive - before.alive_count, dead - before.not_alive_count)
         if any(changes):
             self._lives = QoSLivelinessChangedInfo(alive, dead, *changes)
-            self._tell(self._wanted.liveliness, self._lives)
+            self._tell(self._callbacks.liveliness, self._lives)
 
     def message_passed(self) -> None:
         """Record that a message was sent or received, and restart the deadline."""
@@ -230,13 +230,13 @@ class EndpointWatch(WorkQueue):
 
     def _miss(self) -> None:
         self._missed = QoSCountInfo(self._missed.total_count + 1, 1)
-        self._tell(self._wanted.deadline, self._missed)
+        self._tell(self._callbacks.deadline, self._missed)
         self._deadline.end()
 
     def lease_expired(self) -> None:
         """Report that the watched publisher gave no sign of life for longer than its lease."""
         self._lost = QoSCountInfo(self._lost.total_count + 1, 1)
-        self._tell(self._wanted.liveliness, self._lost)
+        self._tell(self._callbacks.liveliness, self._lost)
 
     def _tell(self, callback: Told, info: Any) -> None:
         if callback is not None:

@@ -156,7 +156,7 @@ class NodeSeat:
 
         return bool(self.program.ask(drop))
 
-    def leave(self) -> None:
+    def destroy_node(self) -> None:
         """Destroy the node with all its entities; call this in the program's thread."""
         if not self._destroyed:
             self.program.unserved.append((self.name, self.unserved()))
@@ -165,7 +165,7 @@ class NodeSeat:
                 self.program.nodes.remove(self)
 
     def unserved(self) -> int:
-        """Return the number of the node's callbacks; 0 if the node was ever in an executor."""
+        """Return the number of callbacks of a node that was never spun; 0 for other nodes."""
         return 0 if self.was_served else sum(one.is_a_callback for one in self.entities)
 
     # On the loop's thread
@@ -185,32 +185,32 @@ class NodeSeat:
         self.entities.clear()
         self.world.remove(self.node)
 
-    def late(self, full: str) -> list[tuple[Any, Endpoint | None]]:
+    def stored_messages(self, full_name: str) -> list[tuple[Any, Endpoint | None]]:
         """Return the stored messages that a new TRANSIENT_LOCAL subscription to a topic receives.
 
         Args:
-            full: Full name of the topic.
+            full_name: Full name of the topic.
 
         Returns:
             Tuples (message, publisher) for the publishers of this process; the publisher of static
             transforms is None.
         """
-        if full == "tf_static":
+        if full_name == "tf_static":
             transforms = self.world.static_transforms()
             return [(TransformMessage(transforms, ""), None)] if transforms else []
         return [
             (value, publisher)
-            for publisher in self.world.endpoints.of(full, PUBLISHER)
+            for publisher in self.world.endpoints.of(full_name, PUBLISHER)
             for value in publisher.kept or ()
         ]
 
     # Waiting
 
-    def wait_until(self, there: Callable[[], bool], timeout_sec: float | None) -> bool:
-        """Block until the function `there` returns True; return False at the timeout."""
+    def wait_until(self, condition: Callable[[], bool], timeout_sec: float | None) -> bool:
+        """Block until `condition()` is True; return False at the timeout."""
         if timeout_sec is not None and timeout_sec <= 0:
             timeout_sec = 0.0
-        return bool(self.program.ask(lambda: self._appears(there, timeout_sec)))
+        return bool(self.program.ask(lambda: self._appears(condition, timeout_sec)))
 
     async def _appears(self, there: Callable[[], bool], timeout_sec: float | None) -> bool:
         end = None

@@ -120,9 +120,9 @@ class Service(ServiceEnd):
         super().__init__(seat, kind, name, full, group)
         self.callback = callback
         self._open: set[asyncio.Future[Any]] = set()
-        self._stop = seat.world.serve(full, self.asked, kind, node=seat.authority, shares=True)
+        self._stop = seat.world.serve(full, self.respond, kind, node=seat.authority, shares=True)
 
-    async def asked(self, request: Any) -> Any:
+    async def respond(self, request: Any) -> Any:
         """Queue a request for the executor; return the response when the callback has run.
 
         Raises:

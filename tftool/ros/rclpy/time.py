@@ -362,7 +362,7 @@ class ClockChange(IntEnum):
 
 @dataclass(kw_only=True, eq=False)
 class JumpThreshold:
-    """Smallest jump of a clock at which a callback is called."""
+    """Threshold for jumps of a clock; smaller jumps call no callback."""
 
     min_forward: Duration | None
     min_backward: Duration | None

@@ -61,7 +61,7 @@ class TopicEnd(NodeEntity):
         self.qos_profile = profile
         self.topic = topic
         self.full = full
-        self._carried = values.carried(kind, full)
+        self._carried = values.topic_class(kind, full)
         self._topic: Any = seat.world.topic(full, self._carried)
         self._quality = quality_of(profile, offered=role == PUBLISHER)
         self._is_latched = self._quality.is_latched and full not in values.TF_TOPICS
@@ -75,7 +75,7 @@ class TopicEnd(NodeEntity):
             # A latched subscription gets other processes' messages, including earlier messages,
             # from the connection itself.
             deliver=deliver if self._is_latched else None,
-            kept=deque(maxlen=_room(profile)) if keeps else None,
+            kept=deque(maxlen=_queue_limit(profile)) if keeps else None,
         )
 
     @property
@@ -142,7 +142,7 @@ class Publisher(TopicEnd):
         """Return the number of subscriptions to the topic."""
         count = int(self.seat.program.ask(lambda: self._topic.subscribers))
         if not count:
-            self.seat.program.looked_in_vain(must_keep_pace=False)
+            self.seat.program.count_failed_query(must_keep_pace=False)
         return count
 
     def assert_liveliness(self) -> None:
@@ -202,12 +202,12 @@ class Subscription(TopicEnd):
         super().__init__(seat, group, SUBSCRIPTION, kind, topic, full, profile, self._accept)
         self.raw = raw
         self.callback: Callable[..., Any] = callback
-        self._queue: deque[Any] = deque(maxlen=_room(profile))
+        self._queue: deque[Any] = deque(maxlen=_queue_limit(profile))
         self._takes_info = not accepts(callback, None) and accepts(callback, None, None)
         self._leave = seat.world.endpoints.add(self.endpoint)
         self._stop = self._topic.subscribe(self._arrived, seat.authority)
         if self._quality.is_latched:
-            for value, sender in seat.late(full):
+            for value, sender in seat.stored_messages(full):
                 self._accept(value, sender)
 
     def get_publisher_count(self) -> int:
@@ -296,6 +296,6 @@ class RosoutPublisher(Publisher):
         self._send(message)
 
 
-def _room(profile: QoSProfile) -> int | None:
+def _queue_limit(profile: QoSProfile) -> int | None:
     """Return the largest number of messages in a queue with this profile; None for no limit."""
     return None if profile.history is HistoryPolicy.KEEP_ALL else max(1, profile.depth)

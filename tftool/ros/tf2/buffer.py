@@ -436,7 +436,7 @@ class BufferCore:
     def _check_now(self, request: LookupRequest) -> tuple[int, str]:
         reason: str = self._ask(lambda: self._why_not(request))
         if reason:
-            self._program.looked_in_vain()
+            self._program.count_failed_query()
         return int(not reason), reason
 
     def _why_not(self, request: LookupRequest) -> str:
