@@ -217,7 +217,7 @@ def test_a_commands_lines_may_be_of_any_length(monkeypatch):
         stream = asyncio.StreamReader()
         stream.feed_data(b"a\n" + b"b" * 200_000 + b"\n\n" + b"c" * 400_000 + b"\nd\xff")
         stream.feed_eof()
-        return [line async for line in commands.lines_of(stream)]
+        return [line async for line in commands.read_lines(stream)]
 
     first, long, empty, *pieces, last = asyncio.run(read())
 
