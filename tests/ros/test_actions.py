@@ -74,7 +74,7 @@ def order(number):
 def finish(client, future):
     import rclpy
 
-    rclpy.spin_until_future_complete(client.seat.ros_node, future, timeout_sec=60.0)
+    rclpy.spin_until_future_complete(client.node_state.ros_node, future, timeout_sec=60.0)
     return future.result()
 
 
@@ -102,7 +102,7 @@ def test_a_goal_can_be_cancelled_on_the_way(client):
     import rclpy
     from rclpy.task import Future
 
-    rclpy.spin_until_future_complete(client.seat.ros_node, Future(), timeout_sec=3.5)
+    rclpy.spin_until_future_complete(client.node_state.ros_node, Future(), timeout_sec=3.5)
     answer = finish(client, handle.cancel_goal_async())
 
     assert len(answer.goals_canceling) == 1
@@ -125,13 +125,13 @@ def test_goals_of_the_wrong_kind_and_servers_that_are_not_there(client):
     with pytest.raises(TypeError, match="Expected"):
         client.send_goal_async("ten")
     with pytest.raises(TypeError, match="execute_callback"):
-        ActionServer(client.seat.ros_node, client.type_, "x", None)
-    nobody = ActionClient(client.seat.ros_node, client.type_, "nobody")
+        ActionServer(client.node_state.ros_node, client.type_, "x", None)
+    nobody = ActionClient(client.node_state.ros_node, client.type_, "nobody")
     assert not nobody.wait_for_server(timeout_sec=0.5)
     import rclpy
 
     future = nobody.send_goal_async(order(1))
-    rclpy.spin_until_future_complete(client.seat.ros_node, future, timeout_sec=0.5)
+    rclpy.spin_until_future_complete(client.node_state.ros_node, future, timeout_sec=0.5)
     assert not future.done()
     nobody.destroy()
 

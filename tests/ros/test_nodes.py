@@ -172,7 +172,7 @@ def test_a_nodes_class_may_call_its_own_things_as_it_likes(node, ros_runtime):
     class Robot(Node):
         def __init__(self):
             super().__init__("robot")
-            self.world = self.program = self.graph = self.frames = self.seat = "map"
+            self.world = self.program = self.graph = self.frames = self.node_state = "map"
             self.entities = self.authority = self.wake = self.late = self.forget = None
             self.declare_parameter("speed", 1.0)
             self.ticks = []

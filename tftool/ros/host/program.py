@@ -73,7 +73,7 @@ class Program(Node):
         listens: Whether the program looks up transforms.
         failure: Exception that ended the program; None if the program has not failed.
         status: Exit status once the program has ended; None before.
-        nodes: State (`rclpy.seat.NodeSeat`) of each rclpy node; empty after the program's end.
+        nodes: `NodeState` of each rclpy node; empty after the end of the program.
         unserved: Destroyed nodes that were never spun, each with its number of callbacks.
         event_loops: Event loops of asyncio that the program created, closed at its end.
         lines_with_angles: Lines of code that were already checked for angles in degrees.

@@ -11,7 +11,7 @@ from tftool.ros.host import values
 from tftool.ros.rclpy.entities import Requester
 from tftool.ros.rclpy.executors import wait_for
 from tftool.ros.rclpy.futures import Future
-from tftool.ros.rclpy.seat import seat_of
+from tftool.ros.rclpy.node_state import state_of
 from tftool.world.action_parts import ENDED, goal_id_message
 from tftool.world.topics import GoalHandle as WorldGoal
 from tftool.world.topics import new_goal_id
@@ -68,7 +68,7 @@ class ClientGoalHandle:
 
     def get_result(self) -> Any:
         """Block until the goal ends; return an object with the attributes `status` and `result`."""
-        return wait_for(self._client.seat, self.get_result_async())
+        return wait_for(self._client.node_state, self.get_result_async())
 
     def cancel_goal_async(self) -> Future:
         """Request the goal's cancellation; return a future of the server's response."""
@@ -76,7 +76,7 @@ class ClientGoalHandle:
 
     def cancel_goal(self) -> Any:
         """Request the goal's cancellation; block until the server responds."""
-        return wait_for(self._client.seat, self.cancel_goal_async())
+        return wait_for(self._client.node_state, self.cancel_goal_async())
 
 
 class ActionClient(Requester):
@@ -91,12 +91,12 @@ class ActionClient(Requester):
         callback_group: Any = None,
         **profiles: Any,
     ) -> None:
-        seat = seat_of(node)
-        super().__init__(seat, callback_group or node.default_callback_group)
+        state = state_of(node)
+        super().__init__(state, callback_group or node.default_callback_group)
         self.type_ = action_type
         self._name = action_name
-        self.full = seat.full(action_name)
-        seat.keep(self._join)
+        self.full = state.full(action_name)
+        state.keep(self._join)
 
     def _join(self) -> "ActionClient":
         self.announce(f"{self.full}/_action/send_goal", f"{self.type_.interface__}_SendGoal")
@@ -104,7 +104,7 @@ class ActionClient(Requester):
 
     def is_served(self) -> bool:
         """Return whether an action server exists; call this in the event loop's thread."""
-        return self.full in self.seat.world.actions()
+        return self.full in self.node_state.world.actions()
 
     def send_goal_async(
         self,
@@ -133,7 +133,7 @@ class ActionClient(Requester):
             if not self.is_served():
                 return None
             goal_key = bytes(goal_id.uuid)
-            handle = self.seat.world.send_goal(self.full, copy, on_feedback, goal_id=goal_key)
+            handle = self.node_state.world.send_goal(self.full, copy, on_feedback, goal_id=goal_key)
             # Shielded, because the server decides whether or not this client waits.
             accepted = handle.decided is None or await asyncio.shield(handle.decided)
             return ClientGoalHandle(self, goal_id, handle if accepted else None)
@@ -146,7 +146,7 @@ class ActionClient(Requester):
         Returns:
             Object with the attributes `status` and `result`; None if the server rejects the goal.
         """
-        handle = wait_for(self.seat, self.send_goal_async(goal, **kwargs))
+        handle = wait_for(self.node_state, self.send_goal_async(goal, **kwargs))
         return None if handle is None or not handle.accepted else handle.get_result()
 
     def watch(self, handle: ClientGoalHandle, goal: WorldGoal | None) -> Future:

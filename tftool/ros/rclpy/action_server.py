@@ -11,8 +11,8 @@ from tftool.ros.host import values
 from tftool.ros.host.error_text import error_sentence
 from tftool.ros.rclpy.action_client import STATUS, GoalStatus
 from tftool.ros.rclpy.entities import WorkQueue, outcome
+from tftool.ros.rclpy.node_state import state_of
 from tftool.ros.rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_default
-from tftool.ros.rclpy.seat import seat_of
 from tftool.ros.rclpy.topics import Publisher
 from tftool.world.action_parts import ActionParts, goal_id_message
 from tftool.world.topics import GoalHandle as WorldGoal
@@ -75,7 +75,7 @@ class ServerGoalHandle:
         if not isinstance(feedback, kind):
             raise TypeError(f"Expected {kind}, got {type(feedback)}")
         copy = duplicate(feedback)
-        self._server.seat.program.ask(lambda: self._goal.publish_feedback(copy))
+        self._server.node_state.program.ask(lambda: self._goal.publish_feedback(copy))
 
     def succeed(self, response: Any = None) -> None:
         """Mark the goal as succeeded."""
@@ -105,7 +105,7 @@ class ServerGoalHandle:
         """End the goal, and send the result message to the client."""
         status = self._status or "aborted"
         copy = duplicate(result)
-        self._server.seat.program.ask(lambda: self._goal.finish(status, copy))
+        self._server.node_state.program.ask(lambda: self._goal.finish(status, copy))
 
 
 class ActionServer(WorkQueue):
@@ -126,8 +126,8 @@ class ActionServer(WorkQueue):
         status_pub_qos_profile: QoSProfile = qos_profile_action_status_default,
         **profiles: Any,
     ) -> None:
-        seat = seat_of(node)
-        super().__init__(seat, callback_group or node.default_callback_group)
+        state = state_of(node)
+        super().__init__(state, callback_group or node.default_callback_group)
         if not callable(execute_callback):
             raise TypeError("an ActionServer needs a function as its execute_callback")
         self.type_ = action_type
@@ -135,19 +135,19 @@ class ActionServer(WorkQueue):
         self._on_goal = goal_callback or (lambda request: GoalResponse.ACCEPT)
         self._on_accepted = handle_accepted_callback or (lambda handle: handle.execute())
         self._on_cancel = cancel_callback or (lambda handle: CancelResponse.REJECT)
-        self.full = seat.full(action_name)
+        self.full = state.full(action_name)
         self._stops: list[Callable[[], None]] = []
         self._goals: set[WorldGoal] = set()
 
         def serve() -> "ActionServer":
-            stop = seat.world.serve_action(
-                self.full, self.arrived, action_type, node=seat.authority
+            stop = state.world.serve_action(
+                self.full, self.arrived, action_type, node=state.authority
             )
             self._stops = [stop]
             self._show_parts(feedback_pub_qos_profile, status_pub_qos_profile)
             return self
 
-        seat.keep(serve)
+        state.keep(serve)
 
     def _show_parts(self, feedback_profile: QoSProfile, status_profile: QoSProfile) -> None:
         """Offer the services and topics of ROS 2's action protocol, such as `_action/status`.
@@ -156,21 +156,21 @@ class ActionServer(WorkQueue):
             feedback_profile: Quality of service of the feedback topic.
             status_profile: Quality of service of the status topic.
         """
-        seat, made = self.seat, self.type_.Impl
+        state, made = self.node_state, self.type_.Impl
 
         def publisher(what: str, kind: Any, profile: QoSProfile) -> Publisher:
             full = f"{self.full}/_action/{what}"
-            return Publisher(seat, kind, f"/{full}", full, profile)
+            return Publisher(state, kind, f"/{full}", full, profile)
 
         feedback = publisher("feedback", made.FeedbackMessage, feedback_profile)
         status = publisher("status", made.GoalStatusMessage, status_profile)
         parts = ActionParts(
-            seat.world,
+            state.world,
             self.full,
             self.type_.interface__,
             on_feedback=feedback.publish,
             on_status=status.publish,
-            warn=lambda text: seat.program.say("WARN", seat.authority, text),
+            warn=lambda text: state.program.say("WARN", state.authority, text),
         )
         self._stops += [feedback.withdraw, status.withdraw, parts.close]
         for what, kind, answer in (
@@ -179,8 +179,12 @@ class ActionServer(WorkQueue):
             ("get_result", made.GetResultService, parts.get_result),
         ):
             self._stops.append(
-                seat.world.serve(
-                    f"{self.full}/_action/{what}", answer, kind, node=seat.authority, shares=True
+                state.world.serve(
+                    f"{self.full}/_action/{what}",
+                    answer,
+                    kind,
+                    node=state.authority,
+                    shares=True,
                 )
             )
 
@@ -245,7 +249,7 @@ class ActionServer(WorkQueue):
     # On the fiber
 
     async def _consider(self, handle: ServerGoalHandle, goal: WorldGoal) -> None:
-        ask = self.seat.program.ask
+        ask = self.node_state.program.ask
         try:
             response = await outcome(self._on_goal(handle.request))
         except Exception:
@@ -265,7 +269,7 @@ class ActionServer(WorkQueue):
             if accepted:
                 handle.is_cancel_requested = True
         finally:
-            self.seat.program.ask(lambda: goal.decide_cancel(accepted))
+            self.node_state.program.ask(lambda: goal.decide_cancel(accepted))
 
     def execute(self, handle: ServerGoalHandle, callback: Any = None) -> None:
         """Schedule the execution of a goal on the node's executor.
@@ -280,7 +284,7 @@ class ActionServer(WorkQueue):
         chosen = callback or self._execute
 
         async def work() -> None:
-            logger = self.seat.ros_node.get_logger()
+            logger = self.node_state.ros_node.get_logger()
             try:
                 result = await outcome(chosen(handle))
             except Exception as error:
@@ -295,7 +299,7 @@ class ActionServer(WorkQueue):
                 result = self.type_.Result()
             handle.finish(result)
 
-        executor = self.seat.executor
+        executor = self.node_state.executor
         if executor is None:
             raise TftoolError(
                 "the goal cannot be executed, because its node has no executor: spin the node"

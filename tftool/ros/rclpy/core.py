@@ -20,8 +20,8 @@ from tftool.ros.rclpy.executors import (
 from tftool.ros.rclpy.futures import Future
 from tftool.ros.rclpy.node import Node
 from tftool.ros.rclpy.node_parameters import warn_of_unused
+from tftool.ros.rclpy.node_state import state_of
 from tftool.ros.rclpy.qos import QoSProfile
-from tftool.ros.rclpy.seat import seat_of
 from tftool.ros.rclpy.time import S_TO_NS, Duration, Time
 
 # Some programs import what rclpy's own module imports from typing.
@@ -164,7 +164,7 @@ def wait_for_message(
     # The waiting callback may prevent the node's other callbacks from running.
     subscription.passes_busy_group = True
     try:
-        wait_for(seat_of(node), arrived, None if time_to_wait < 0 else time_to_wait)
+        wait_for(state_of(node), arrived, None if time_to_wait < 0 else time_to_wait)
     finally:
         node.destroy_subscription(subscription)
     return arrived.done(), arrived.result()

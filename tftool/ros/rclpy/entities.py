@@ -15,7 +15,7 @@ from typing import Any, Final, Self
 from tftool.base.errors import TftoolError
 from tftool.ros.host.program import TICK
 from tftool.ros.rclpy.futures import Future
-from tftool.ros.rclpy.seat import NodeSeat
+from tftool.ros.rclpy.node_state import NodeState
 from tftool.ros.rclpy.time import Clock, ClockType, Time
 from tftool.world.endpoints import CLIENT, Endpoint
 
@@ -43,8 +43,8 @@ class NodeEntity:
     only_ends_spin_once = False
     """Whether the entity only makes `spin_once` return, as the same object in ROS 2 does."""
 
-    def __init__(self, seat: NodeSeat, group: Any) -> None:
-        self.seat = seat
+    def __init__(self, state: NodeState, group: Any) -> None:
+        self.node_state = state
         self.callback_group = group
 
     def ready(self) -> bool:
@@ -60,12 +60,12 @@ class NodeEntity:
 
     def destroy(self) -> None:
         """Close the entity, and remove it from the node."""
-        self.seat.forget(self)
+        self.node_state.forget(self)
 
     @property
     def handle(self) -> AbstractContextManager[None]:
         """Context manager that raises InvalidHandle if the entity was destroyed."""
-        return required(lambda: self.seat.require_of(self))
+        return required(lambda: self.node_state.require_of(self))
 
     def __enter__(self) -> Self:
         return self
@@ -77,14 +77,14 @@ class NodeEntity:
 class WorkQueue(NodeEntity):
     """Entity that stores its work in a queue; an executor does the work in order."""
 
-    def __init__(self, seat: NodeSeat, group: Any) -> None:
-        super().__init__(seat, group)
+    def __init__(self, state: NodeState, group: Any) -> None:
+        super().__init__(state, group)
         self._arrived: deque[Work] = deque()
 
     def put(self, work: Work) -> None:
         """Append work to the queue and wake the executor; call this in the event loop's thread."""
         self._arrived.append(work)
-        self.seat.wake()
+        self.node_state.wake()
 
     @property
     def is_full(self) -> bool:
@@ -107,8 +107,8 @@ class Requester(WorkQueue):
     # callback of the same group waits for it.
     passes_busy_group = True
 
-    def __init__(self, seat: NodeSeat, group: Any) -> None:
-        super().__init__(seat, group)
+    def __init__(self, state: NodeState, group: Any) -> None:
+        super().__init__(state, group)
         self._asking: set[asyncio.Task[None]] = set()
         self._leave: Callable[[], None] | None = None
 
@@ -121,8 +121,8 @@ class Requester(WorkQueue):
             service: Full name of the service.
             kind: Type of the service.
         """
-        client = Endpoint(CLIENT, self.seat.authority, service, kind)
-        self._leave = self.seat.world.clients.add(client)
+        client = Endpoint(CLIENT, self.node_state.authority, service, kind)
+        self._leave = self.node_state.world.clients.add(client)
 
     def is_served(self) -> bool:
         """Return whether a server is available; call this in the event loop's thread."""
@@ -130,14 +130,14 @@ class Requester(WorkQueue):
 
     def server_is_ready(self) -> bool:
         """Return whether a server is available now; this method can be called in any thread."""
-        ready = bool(self.seat.program.ask(self.is_served))
+        ready = bool(self.node_state.program.ask(self.is_served))
         if not ready:
-            self.seat.program.count_failed_query(must_keep_pace=False)
+            self.node_state.program.count_failed_query(must_keep_pace=False)
         return ready
 
     def wait_for_server(self, timeout_sec: float | None = None) -> bool:
         """Block until a server is available; return False at the timeout."""
-        return self.seat.wait_until(self.is_served, timeout_sec)
+        return self.node_state.wait_until(self.is_served, timeout_sec)
 
     def promise(self, request: Callable[[], Coroutine[Any, Any, Any]]) -> Future:
         """Start the coroutine of a request in the event loop; return a future of the response.
@@ -145,7 +145,7 @@ class Requester(WorkQueue):
         The node's executor completes the future; if the coroutine returns None, the future never
         completes. Closing this entity cancels the coroutine.
         """
-        future = Future(executor=self.seat.executor)
+        future = Future(executor=self.node_state.executor)
 
         async def work() -> None:
             try:
@@ -159,7 +159,7 @@ class Requester(WorkQueue):
 
             def settle() -> None:
                 if not future.cancelled():
-                    future.set_executor(self.seat.executor)
+                    future.set_executor(self.node_state.executor)
                     complete()
 
             self.put(settle)
@@ -169,7 +169,7 @@ class Requester(WorkQueue):
             self._asking.add(task)
             task.add_done_callback(self._asking.discard)
 
-        self.seat.program.ask(start)
+        self.node_state.program.ask(start)
         return future
 
     def withdraw(self) -> None:
@@ -183,8 +183,8 @@ class Requester(WorkQueue):
 class GuardCondition(WorkQueue):
     """Entity that calls its callback when a program calls `trigger`."""
 
-    def __init__(self, seat: NodeSeat, callback: Callable[[], Any], group: Any) -> None:
-        super().__init__(seat, group)
+    def __init__(self, state: NodeState, callback: Callable[[], Any], group: Any) -> None:
+        super().__init__(state, group)
         self.callback = callback
 
     def trigger(self) -> None:
@@ -194,7 +194,7 @@ class GuardCondition(WorkQueue):
             if not self.ready():
                 self.put(self.callback)
 
-        self.seat.program.ask(set_off)
+        self.node_state.program.ask(set_off)
 
 
 class CallbackGroup:
@@ -264,18 +264,18 @@ class Timer(NodeEntity):
 
     def __init__(
         self,
-        seat: NodeSeat,
+        state: NodeState,
         callback: Callable[..., Any] | None,
         period_ns: int,
         group: Any,
         clock: Clock,
         autostart: bool = True,
     ) -> None:
-        super().__init__(seat, group)
+        super().__init__(state, group)
         self.callback: Callable[..., Any] | None = callback
         self.clock = clock
         self._period = period_ns
-        self._last = seat.world.clock.now()
+        self._last = state.world.clock.now()
         self.due = self._last + period_ns
         self._canceled = not autostart
         self._takes_info = callback is not None and not accepts(callback)
@@ -290,11 +290,11 @@ class Timer(NodeEntity):
         def change() -> None:
             self._period = int(value)
 
-        self.seat.program.ask(change)
+        self.node_state.program.ask(change)
 
     def ready(self) -> bool:
         """Return whether the timer's next call is due."""
-        return not self._canceled and self.due <= self.seat.world.clock.now()
+        return not self._canceled and self.due <= self.node_state.world.clock.now()
 
     is_ready = ready
 
@@ -303,10 +303,10 @@ class Timer(NodeEntity):
 
         The next call is at the next multiple of the period, so calls that were missed are left out.
         """
-        now, due = self.seat.world.clock.now(), self.due
+        now, due = self.node_state.world.clock.now(), self.due
         self._last = now
         # A timer with period 0 must not stop simulated time.
-        fastest = TICK if self.seat.program.strict else 0
+        fastest = TICK if self.node_state.program.strict else 0
         if not self._period:
             self.due = now + fastest
         else:
@@ -335,18 +335,18 @@ class Timer(NodeEntity):
 
         def restart() -> None:
             self._canceled = False
-            self.due = self.seat.world.clock.now() + self._period
-            self.seat.wake()
+            self.due = self.node_state.world.clock.now() + self._period
+            self.node_state.wake()
 
-        self.seat.program.ask(restart)
+        self.node_state.program.ask(restart)
 
     def time_since_last_call(self) -> int:
         """Return the nanoseconds since the last call, or the creation if there was no call."""
-        return self.seat.world.clock.now() - self._last
+        return self.node_state.world.clock.now() - self._last
 
     def time_until_next_call(self) -> int | None:
         """Return the nanoseconds until the timer's next call; None for a cancelled timer."""
-        return None if self._canceled else self.due - self.seat.world.clock.now()
+        return None if self._canceled else self.due - self.node_state.world.clock.now()
 
 
 class RateTimer(Timer):

@@ -18,7 +18,7 @@ from tftool.ros.host import fibers, program
 from tftool.ros.rclpy.context import Context, context_of
 from tftool.ros.rclpy.entities import NodeEntity, Timer, Work
 from tftool.ros.rclpy.futures import Future, Task
-from tftool.ros.rclpy.seat import NodeSeat, seat_of
+from tftool.ros.rclpy.node_state import NodeState, state_of
 
 THREADS = 4
 """Default number of callbacks that a MultiThreadedExecutor runs at once, on every machine."""
@@ -53,7 +53,7 @@ class Executor:
     def __init__(self, *, context: Context | None = None) -> None:
         self._program = program.current()
         self._context = context or context_of(self._program)
-        self._seats: list[NodeSeat] = []
+        self._seats: list[NodeState] = []
         self._batch: deque[NodeEntity] = deque()
         self._due: Stamp | None = None
         """Time of the next timer that may run, when no entity was ready; None without a timer."""
@@ -81,14 +81,14 @@ class Executor:
 
     def add_node(self, node: Any) -> bool:
         """Add a node to this executor; return False if the node was already added."""
-        seat = seat_of(node)
-        if seat in self._seats:
+        state = state_of(node)
+        if state in self._seats:
             return False
 
         def add() -> None:
-            self._seats.append(seat)
-            seat.executor = self
-            seat.was_served = True
+            self._seats.append(state)
+            state.executor = self
+            state.was_served = True
             self.wake()
 
         self._program.ask(add)
@@ -96,21 +96,21 @@ class Executor:
 
     def remove_node(self, node: Any) -> None:
         """Remove a node from this executor."""
-        seat = seat_of(node)
+        state = state_of(node)
 
         def remove() -> None:
-            if seat in self._seats:
-                self._seats.remove(seat)
-            if seat.executor is self:
-                seat.executor = None
-            self._batch = deque(one for one in self._batch if one.seat is not seat)
+            if state in self._seats:
+                self._seats.remove(state)
+            if state.executor is self:
+                state.executor = None
+            self._batch = deque(one for one in self._batch if one.node_state is not state)
             self.wake()
 
         self._program.ask(remove)
 
     def get_nodes(self) -> list[Any]:
         """Return the nodes that were added to this executor."""
-        return [seat.ros_node for seat in self._seats]
+        return [state.ros_node for state in self._seats]
 
     def shutdown(self, timeout_sec: float | None = None) -> bool:
         """Shut the executor down and remove all its nodes; always return True."""
@@ -118,8 +118,8 @@ class Executor:
             self._over = True
             self._leave_context()
             self._wake_from_anywhere()
-        for seat in list(self._seats):
-            self.remove_node(seat.ros_node)
+        for state in list(self._seats):
+            self.remove_node(state.ros_node)
         return True
 
     def create_task(self, callback: Any, *args: Any, **kwargs: Any) -> Task:
@@ -311,14 +311,14 @@ class Executor:
     def _collect(self) -> None:
         """Put the ready entities of all nodes into the batch; each node's timers come first."""
         self._due = None
-        for seat in list(self._seats):
-            timers = [one for one in seat.entities if isinstance(one, Timer)]
+        for state in list(self._seats):
+            timers = [one for one in state.entities if isinstance(one, Timer)]
             for timer in timers:
                 if self._is_ready(timer):
                     self._batch.append(timer)
                 elif not timer.is_canceled() and self._may_run(timer):
                     self._due = timer.due if self._due is None else min(timer.due, self._due)
-            for entity in seat.entities:
+            for entity in state.entities:
                 if not isinstance(entity, Timer) and self._is_ready(entity):
                     self._batch.append(entity)
 
@@ -445,23 +445,23 @@ def serving(executor: Any, node: Any) -> Iterator[None]:
             executor.remove_node(node)
 
 
-def wait_for(seat: NodeSeat, future: Future, timeout_sec: float | None = None) -> Any:
+def wait_for(state: NodeState, future: Future, timeout_sec: float | None = None) -> Any:
     """Execute a node's callbacks until a future is done or the timeout passes.
 
     Args:
-        seat: tftool's state of the node.
+        state: tftool's state of the node.
         future: Future to wait for.
         timeout_sec: Longest wait in seconds; None for no limit.
 
     Returns:
         Result of the future; None if the future is not done in time.
     """
-    executor = seat.executor or executor_of(seat.program)
-    if seat.executor is None and executor.context is not seat.context:
-        with SingleThreadedExecutor(context=seat.context) as executor:
-            executor.add_node(seat.ros_node)
+    executor = state.executor or executor_of(state.program)
+    if state.executor is None and executor.context is not state.context:
+        with SingleThreadedExecutor(context=state.context) as executor:
+            executor.add_node(state.ros_node)
             executor.spin_until_future_complete(future, timeout_sec)
     else:
-        with serving(executor, seat.ros_node):
+        with serving(executor, state.ros_node):
             executor.spin_until_future_complete(future, timeout_sec)
     return future.result()

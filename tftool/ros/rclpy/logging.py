@@ -180,7 +180,7 @@ def _rosout_of(owner: program.Program, logger: str) -> Any:
     The node's logger is `logger` itself or its nearest parent. Return None if there is no such
     node.
     """
-    told = [seat.rosout for seat in owner.nodes if seat.rosout is not None]
+    told = [state.rosout for state in owner.nodes if state.rosout is not None]
     fitting = (one for one in told if one.speaks_for(logger))
     return max(fitting, key=lambda rosout: len(rosout.logger), default=None)
 

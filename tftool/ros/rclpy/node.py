@@ -24,6 +24,7 @@ from tftool.ros.rclpy.exceptions import NotInitializedException
 from tftool.ros.rclpy.logging import LoggingSeverity, RcutilsLogger, logger_services
 from tftool.ros.rclpy.node_graph import NodeGraph
 from tftool.ros.rclpy.node_parameters import NodeParameters, services_of
+from tftool.ros.rclpy.node_state import NodeState
 from tftool.ros.rclpy.qos import (
     QoSOverridingOptions,
     QoSProfile,
@@ -32,7 +33,6 @@ from tftool.ros.rclpy.qos import (
     qos_profile_rosout_default,
 )
 from tftool.ros.rclpy.qos_events import EndpointWatch
-from tftool.ros.rclpy.seat import NodeSeat
 from tftool.ros.rclpy.services import Client, Service
 from tftool.ros.rclpy.time import Clock, Duration, Rate, ROSClock
 from tftool.ros.rclpy.topics import Publisher, RosoutPublisher, Subscription
@@ -77,7 +77,7 @@ class Node(NodeGraph, NodeParameters):
         self._logger = RcutilsLogger(names.join(place, name).replace("/", "."))
         for logger, level in options.levels.items():
             owner.log_levels[logger] = int(LoggingSeverity[level])
-        self._tftool = NodeSeat(owner, name, place, options, self._context, self)
+        self._tftool = NodeState(owner, name, place, options, self._context, self)
         self._start_parameters(
             self._tftool,
             options.parameters_for(name, place),
@@ -350,16 +350,16 @@ class Node(NodeGraph, NodeParameters):
             services: Function that returns tuples (name below the node's name, type, handler).
             callback_group: Callback group; None for the node's default group.
         """
-        seat = self._tftool
+        state = self._tftool
         group = callback_group or self._default_callback_group
 
         def offer() -> None:
             for below, kind, answer in services():
-                full = seat.full(f"~/{below}", is_service=True)
-                if not seat.world.has_service(full):
-                    seat.add(Service, seat, kind, f"~/{below}", full, answer, group)
+                full = state.full(f"~/{below}", is_service=True)
+                if not state.world.has_service(full):
+                    state.add(Service, state, kind, f"~/{below}", full, answer, group)
 
-        seat.program.ask(partial(seat.world.serve_later, seat.node, offer))
+        state.program.ask(partial(state.world.serve_later, state.node, offer))
 
     def __keep(self, make: Callable[..., E], *args: Any) -> E:
         return self._tftool.keep(make, self._tftool, *args)

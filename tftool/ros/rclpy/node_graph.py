@@ -9,8 +9,8 @@ from typing import Any, TypeVar
 
 from tftool.messages.classes import interface_name
 from tftool.ros.host.names import join
+from tftool.ros.rclpy.node_state import NodeState, state_of
 from tftool.ros.rclpy.qos import HistoryPolicy, QoSProfile, profile_from, qos_profile_unknown
-from tftool.ros.rclpy.seat import NodeSeat, seat_of
 from tftool.ros.rclpy.time import Duration, Infinite
 from tftool.world.endpoints import CLIENT, PUBLISHER, SUBSCRIPTION, Endpoint, Endpoints, Role
 
@@ -105,7 +105,7 @@ class NodeNameNonExistentError(Exception):
 class NodeGraph:
     """Methods of a node that list all nodes, topics, services and actions."""
 
-    _tftool: NodeSeat
+    _tftool: NodeState
 
     def __look(self, question: Callable[[], T]) -> T:
         found: T = self._tftool.program.ask(question)
@@ -250,9 +250,9 @@ class NodeGraph:
 
 def get_action_names_and_types(node: Any) -> NamesAndTypes:
     """Return (name, types) of every action that has a server or a client."""
-    seat = seat_of(node)
-    found: NamesAndTypes = seat.program.ask(
-        lambda: _listed(chain(_served_actions(None, seat), _sought_actions(None, seat)))
+    state = state_of(node)
+    found: NamesAndTypes = state.program.ask(
+        lambda: _listed(chain(_served_actions(None, state), _sought_actions(None, state)))
     )
     return found
 
@@ -265,8 +265,8 @@ def get_action_server_names_and_types_by_node(
     Raises:
         NodeNameNonExistentError: If there is no such node.
     """
-    seat = seat_of(node)
-    return _of_node(seat, remote_node_name, remote_node_namespace, _served_actions, seat)
+    state = state_of(node)
+    return _of_node(state, remote_node_name, remote_node_namespace, _served_actions, state)
 
 
 def get_action_client_names_and_types_by_node(
@@ -277,12 +277,15 @@ def get_action_client_names_and_types_by_node(
     Raises:
         NodeNameNonExistentError: If there is no such node.
     """
-    seat = seat_of(node)
-    return _of_node(seat, remote_node_name, remote_node_namespace, _sought_actions, seat)
+    state = state_of(node)
+    return _of_node(state, remote_node_name, remote_node_namespace, _sought_actions, state)
 
 
-def _node_names(seat: NodeSeat) -> list[str]:
-    return [*(one.name for one in seat.world.nodes if one.is_shown), *seat.world.far_nodes]
+def _node_names(state: NodeState) -> list[str]:
+    return [
+        *(one.name for one in state.world.nodes if one.is_shown),
+        *state.world.far_nodes,
+    ]
 
 
 def _endpoint_names(
@@ -301,20 +304,20 @@ def _endpoint_names(
                 yield name, end.interface
 
 
-def _served_actions(by: str | None, seat: NodeSeat) -> Iterator[tuple[str, str]]:
-    for name, offer in seat.world.actions().items():
+def _served_actions(by: str | None, state: NodeState) -> Iterator[tuple[str, str]]:
+    for name, offer in state.world.actions().items():
         if by in (None, offer.node):
             yield name, interface_name(offer.kind)
 
 
-def _sought_actions(by: str | None, seat: NodeSeat) -> Iterator[tuple[str, str]]:
-    for name, kind in _endpoint_names(by, seat.world.clients, CLIENT):
+def _sought_actions(by: str | None, state: NodeState) -> Iterator[tuple[str, str]]:
+    for name, kind in _endpoint_names(by, state.world.clients, CLIENT):
         if name.endswith("/_action/send_goal"):
             yield name.removesuffix("/_action/send_goal"), kind.removesuffix("_SendGoal")
 
 
 def _of_node(
-    seat: NodeSeat,
+    state: NodeState,
     name: str,
     namespace: str,
     find: Callable[..., Iterable[tuple[str, str]]],
@@ -323,7 +326,7 @@ def _of_node(
     """Return (name, types) of the topics, services or actions of one node.
 
     Args:
-        seat: tftool's state of the querying node.
+        state: tftool's state of the querying node.
         name: Name of the other node.
         namespace: Namespace of the other node.
         find: Function that yields (name, type) for a node's full name.
@@ -335,11 +338,11 @@ def _of_node(
     full = join(namespace, name)
 
     def found() -> NamesAndTypes:
-        if full not in _node_names(seat):
+        if full not in _node_names(state):
             raise NodeNameNonExistentError(f"there is no node '/{full}'")
         return _listed(find(full, *args))
 
-    return seat.program.ask(found)  # type: ignore[no-any-return]
+    return state.program.ask(found)  # type: ignore[no-any-return]
 
 
 def _listed(pairs: Iterable[tuple[str, str]]) -> NamesAndTypes:

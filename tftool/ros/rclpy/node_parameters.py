@@ -16,9 +16,9 @@ from tftool.ros.rclpy.exceptions import (
     ParameterNotDeclaredException,
     ParameterUninitializedException,
 )
+from tftool.ros.rclpy.node_state import NodeState
 from tftool.ros.rclpy.parameter import Parameter, Type
 from tftool.ros.rclpy.qos import qos_profile_parameter_events
-from tftool.ros.rclpy.seat import NodeSeat
 from tftool.ros.rclpy.topics import Publisher
 from tftool.ros.rclpy.validation import validate_parameter_name
 from tftool.world.node_parameters import Answer, list_result, parameter_services, value_of
@@ -33,7 +33,7 @@ class NodeParameters:
 
     def _start_parameters(
         self,
-        seat: NodeSeat,
+        state: NodeState,
         given: Mapping[str, Any],
         overrides: Iterable[Parameter],
         undeclared: bool,
@@ -41,7 +41,7 @@ class NodeParameters:
     ) -> None:
         kind: Any = INTERFACES.message("rcl_interfaces/ParameterEvent")
         topic, profile = PARAMETER_EVENTS, qos_profile_parameter_events
-        self.__events: Publisher = seat.keep(Publisher, seat, kind, topic, topic[1:], profile)
+        self.__events: Publisher = state.keep(Publisher, state, kind, topic, topic[1:], profile)
         self._parameters: dict[str, Parameter] = {}
         self._descriptors: dict[str, Any] = {}
         self._parameter_overrides: dict[str, Any] = {one.name: one.value for one in overrides}
@@ -68,11 +68,11 @@ class NodeParameters:
     ) -> None:
         """Publish a parameter event, unless nobody subscribes to these events."""
         if self.__events.get_subscription_count():
-            seat = self.__events.seat
+            state = self.__events.node_state
             self.__events.publish(
                 self.__events.msg_type(
-                    stamp=values.time_message(seat.world.clock.now()),
-                    node=f"/{names.join(seat.namespace, seat.name)}",
+                    stamp=values.time_message(state.world.clock.now()),
+                    node=f"/{names.join(state.namespace, state.name)}",
                     new_parameters=[one.to_parameter_msg() for one in new],
                     changed_parameters=[one.to_parameter_msg() for one in changed],
                     deleted_parameters=[one.to_parameter_msg() for one in deleted],

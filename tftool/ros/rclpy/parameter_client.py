@@ -9,13 +9,13 @@ from tftool.ros.host import names
 from tftool.ros.host.import_table import snake_case
 from tftool.ros.rclpy.futures import Future
 from tftool.ros.rclpy.node_parameters import PARAMETER_EVENTS
+from tftool.ros.rclpy.node_state import state_of
 from tftool.ros.rclpy.parameter import Parameter, parameter_dict_from_yaml_file
 from tftool.ros.rclpy.qos import (
     QoSProfile,
     qos_profile_parameter_events,
     qos_profile_services_default,
 )
-from tftool.ros.rclpy.seat import seat_of
 
 Callback = Callable[[Future], object]
 
@@ -55,10 +55,10 @@ class AsyncParameterClient:
 
     def wait_for_services(self, timeout_sec: float | None = None) -> bool:
         """Block until the other node's parameter services exist; return False at the timeout."""
-        seat = seat_of(self.node)
+        state = state_of(self.node)
         # Wait for all services together, so that the timeout applies to all of them.
         names = [client.full for client in self._clients.values()]
-        return seat.wait_until(lambda: all(map(seat.world.has_service, names)), timeout_sec)
+        return state.wait_until(lambda: all(map(state.world.has_service, names)), timeout_sec)
 
     def _ask(self, kind: str, callback: Callback | None, **fields: Any) -> Future:
         client = self._clients[kind]

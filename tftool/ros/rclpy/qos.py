@@ -289,7 +289,7 @@ class QoSPresetProfiles(Enum):
     @classmethod
     def short_keys(cls) -> list[str]:
         """Return the names of the predefined profiles in lower case."""
-        return [seat.lower() for seat in cls.__members__]
+        return [state.lower() for state in cls.__members__]
 
     @classmethod
     def get_from_short_key(cls, name: str) -> QoSProfile:

@@ -13,8 +13,8 @@ from enum import IntEnum
 from typing import Any, NamedTuple
 
 from tftool.ros.rclpy.entities import WorkQueue
+from tftool.ros.rclpy.node_state import NodeState
 from tftool.ros.rclpy.qos import QoSPolicyKind
-from tftool.ros.rclpy.seat import NodeSeat
 from tftool.world.clock import Phase
 from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, conflict
 
@@ -108,16 +108,18 @@ class SubscriptionEventCallbacks:
 class Silence:
     """Timer that calls a function when nothing has been recorded for longer than a limit."""
 
-    def __init__(self, seat: NodeSeat, limit: int | None, on_silence: Callable[[], object]) -> None:
+    def __init__(
+        self, state: NodeState, limit: int | None, on_silence: Callable[[], object]
+    ) -> None:
         """Create the timer; the first call of `end` starts it.
 
         Args:
-            seat: tftool's state of the node, whose clock is used.
+            state: tftool's state of the node, whose clock is used.
             limit: Longest allowed time between two calls of `end`, in nanoseconds; None for no
                 limit.
             on_silence: Function called in the event loop's thread when the limit has passed.
         """
-        self._seat = seat
+        self._node_state = state
         self._limit = limit
         self._on_silence = on_silence
         self._last = 0
@@ -125,7 +127,7 @@ class Silence:
 
     def end(self) -> None:
         """Record a message or another sign of a living publisher; restart the time limit."""
-        self._last = self._seat.world.clock.now()
+        self._last = self._node_state.world.clock.now()
         if self._timer is None and self._limit is not None:
             self._wait(self._limit)
 
@@ -137,7 +139,7 @@ class Silence:
     def _wait(self, limit: int) -> None:
         # There may be thousands of signs of life, so the timer is not restarted at each of them.
         # The time of the last sign is checked when the timer ends.
-        clock = self._seat.program.clock
+        clock = self._node_state.program.clock
         self._timer = clock.timer(self._last + limit, Phase.WATCH)
         self._timer.add_done_callback(lambda timer: self._look(timer, limit))
 
@@ -145,7 +147,7 @@ class Silence:
         if timer.cancelled():
             return
         self._timer = None
-        if self._seat.world.clock.now() < self._last + limit:
+        if self._node_state.world.clock.now() < self._last + limit:
             self._wait(limit)
         else:
             self._on_silence()
@@ -154,16 +156,16 @@ class Silence:
 class EndpointWatch(WorkQueue):
     """Work queue that calls the user's callbacks for events of one publisher or subscription."""
 
-    def __init__(self, seat: NodeSeat, group: Any, endpoint: Endpoint, callbacks: Any) -> None:
+    def __init__(self, state: NodeState, group: Any, endpoint: Endpoint, callbacks: Any) -> None:
         """Watch a publisher or subscription for events; call this in the event loop's thread.
 
         Args:
-            seat: tftool's state of the node.
+            state: tftool's state of the node.
             group: Callback group of the callbacks.
             endpoint: The publisher or subscription in the graph.
             callbacks: The user's callbacks.
         """
-        super().__init__(seat, group)
+        super().__init__(state, group)
         self._endpoint = endpoint
         self._callbacks = callbacks
         self._matched = QoSMatchedInfo()
@@ -174,8 +176,8 @@ class EndpointWatch(WorkQueue):
         self._seen: list[Endpoint] = []
         timing = endpoint.quality.timing
         limit = None if timing is None or callbacks.deadline is None else timing.deadline
-        self._deadline = Silence(seat, limit, self._miss)
-        self._stop = seat.world.watch(self._look, seat.authority)
+        self._deadline = Silence(state, limit, self._miss)
+        self._stop = state.world.watch(self._look, state.authority)
         self._look()
 
     def _look(self) -> None:
@@ -183,7 +185,7 @@ class EndpointWatch(WorkQueue):
         publishes = own.role == PUBLISHER
         others = [
             one
-            for one in self.seat.world.endpoints.of(
+            for one in self.node_state.world.endpoints.of(
                 own.topic, SUBSCRIPTION if publishes else PUBLISHER
             )
             if one.interface == own.interface
@@ -217,7 +219,7 @@ class EndpointWatch(WorkQueue):
             self._tell(self._callbacks.incompatible_qos, self._unfit)
 
     def _look_who_lives(self, publishers: list[Endpoint]) -> None:
-        alive = sum(map(self.seat.world.endpoints.is_alive, publishers))
+        alive = sum(map(self.node_state.world.endpoints.is_alive, publishers))
         dead, before = len(publishers) - alive, self._lives
         changes = (alive - before.alive_count, dead - before.not_alive_count)
         if any(changes):

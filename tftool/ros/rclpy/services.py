@@ -15,7 +15,7 @@ from tftool.ros.host import values
 from tftool.ros.rclpy.entities import MOST_WAITING, Requester, WorkQueue, outcome
 from tftool.ros.rclpy.executors import wait_for
 from tftool.ros.rclpy.futures import Future
-from tftool.ros.rclpy.seat import NodeSeat
+from tftool.ros.rclpy.node_state import NodeState
 
 START_TYPE_DESCRIPTION_SERVICE_PARAM = "start_type_description_service"
 """Parameter that starts a type description service in ROS 2; without effect in tftool."""
@@ -32,8 +32,8 @@ class ServiceIntrospectionState(IntEnum):
 class ServiceEnd(WorkQueue):
     """Base class of clients and servers of a service."""
 
-    def __init__(self, seat: NodeSeat, kind: Any, name: str, full: str, group: Any) -> None:
-        super().__init__(seat, group)
+    def __init__(self, state: NodeState, kind: Any, name: str, full: str, group: Any) -> None:
+        super().__init__(state, group)
         self.srv_type = kind
         self.srv_name = name
         self.full = full
@@ -53,13 +53,13 @@ class ServiceEnd(WorkQueue):
 class Client(ServiceEnd, Requester):
     """Client that sends requests to a service."""
 
-    def __init__(self, seat: NodeSeat, kind: Any, name: str, full: str, group: Any) -> None:
-        super().__init__(seat, kind, name, full, group)
+    def __init__(self, state: NodeState, kind: Any, name: str, full: str, group: Any) -> None:
+        super().__init__(state, kind, name, full, group)
         self.announce(full, kind.interface__)
 
     def is_served(self) -> bool:
         """Return whether a server is available; call this in the event loop's thread."""
-        return self.seat.world.has_service(self.full)
+        return self.node_state.world.has_service(self.full)
 
     service_is_ready = Requester.server_is_ready
     wait_for_service = Requester.wait_for_server
@@ -85,8 +85,12 @@ class Client(ServiceEnd, Requester):
             TimeoutError: If no response arrives in `timeout_sec` seconds.
         """
         future = self.call_async(request)
-        response = wait_for(self.seat, future, timeout_sec)
-        if timeout_sec is not None and not future.done() and not self.seat.program.interrupted:
+        response = wait_for(self.node_state, future, timeout_sec)
+        if (
+            timeout_sec is not None
+            and not future.done()
+            and not self.node_state.program.interrupted
+        ):
             self.remove_pending_request(future)
             raise TimeoutError(
                 f"service '{self.service_name}' has not responded in {timeout_sec:g} s"
@@ -101,7 +105,7 @@ class Client(ServiceEnd, Requester):
         # As in ROS 2, a request without a server is dropped, and gets no response.
         if not self.is_served():
             return None
-        answer = await self.seat.world.call(self.full, duplicate(request))
+        answer = await self.node_state.world.call(self.full, duplicate(request))
         return values.unpack(answer, self.srv_type.Response)
 
 
@@ -110,17 +114,17 @@ class Service(ServiceEnd):
 
     def __init__(
         self,
-        seat: NodeSeat,
+        state: NodeState,
         kind: Any,
         name: str,
         full: str,
         callback: Callable[[Any, Any], Any],
         group: Any,
     ) -> None:
-        super().__init__(seat, kind, name, full, group)
+        super().__init__(state, kind, name, full, group)
         self.callback = callback
         self._open: set[asyncio.Future[Any]] = set()
-        self._stop = seat.world.serve(full, self.respond, kind, node=seat.authority, shares=True)
+        self._stop = state.world.serve(full, self.respond, kind, node=state.authority, shares=True)
 
     async def respond(self, request: Any) -> Any:
         """Queue a request for the executor; return the response when the callback has run.
@@ -131,7 +135,7 @@ class Service(ServiceEnd):
         if self.is_full:
             raise TftoolError(
                 f"service '{self.full}' has {MOST_WAITING} requests waiting, which its node "
-                f"'{self.seat.authority}' does not process: check that the node spins"
+                f"'{self.node_state.authority}' does not process: check that the node spins"
             )
         answer: asyncio.Future[Any] = asyncio.get_running_loop().create_future()
         self._open.add(answer)
@@ -154,7 +158,7 @@ class Service(ServiceEnd):
             if not answer.done():
                 answer.set_result(sent)
 
-        self.seat.program.ask(send)
+        self.node_state.program.ask(send)
 
     def withdraw(self) -> None:
         """Stop the server; clients that wait for a response get an error."""

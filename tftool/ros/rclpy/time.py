@@ -425,12 +425,12 @@ class JumpHandle:
 class Rate:
     """Timer for a loop: its method `sleep` makes the loop run at a fixed rate."""
 
-    def __init__(self, seat: Any, timer: Any) -> None:
+    def __init__(self, state: Any, timer: Any) -> None:
         self.timer = timer
         self._period: int = timer.timer_period_ns
-        self._program = seat.program
+        self._program = state.program
         self._due = self._program.clock.now() + self._period
-        self._context = seat.context
+        self._context = state.context
         self._state = StateMonitor()
         self._stop = self._context.on_change(self._state.wake)
         self._over = False

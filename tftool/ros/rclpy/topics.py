@@ -9,9 +9,9 @@ from tftool.messages.codec import codec
 from tftool.ros.host import values
 from tftool.ros.rclpy.entities import NodeEntity, Work, accepts
 from tftool.ros.rclpy.exceptions import InvalidHandle
+from tftool.ros.rclpy.node_state import NodeState
 from tftool.ros.rclpy.qos import HistoryPolicy, QoSProfile, quality_of
 from tftool.ros.rclpy.qos_events import EndpointWatch, Silence
-from tftool.ros.rclpy.seat import NodeSeat
 from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, Role, conflict
 from tftool.world.world import TransformMessage
 
@@ -47,7 +47,7 @@ class TopicEnd(NodeEntity):
 
     def __init__(
         self,
-        seat: NodeSeat,
+        state: NodeState,
         group: Any,
         role: Role,
         kind: type[Message],
@@ -56,19 +56,19 @@ class TopicEnd(NodeEntity):
         profile: QoSProfile,
         deliver: Callable[[Any, Endpoint | None], object] | None = None,
     ) -> None:
-        super().__init__(seat, group)
+        super().__init__(state, group)
         self.msg_type = kind
         self.qos_profile = profile
         self.topic = topic
         self.full = full
         self._carried = values.topic_class(kind, full)
-        self._topic: Any = seat.world.topic(full, self._carried)
+        self._topic: Any = state.world.topic(full, self._carried)
         self._quality = quality_of(profile, offered=role == PUBLISHER)
         self._is_latched = self._quality.is_latched and full not in values.TF_TOPICS
         keeps = self._is_latched and role == PUBLISHER
         self.endpoint = Endpoint(
             role,
-            seat.authority,
+            state.authority,
             full,
             kind.interface__,
             self._quality,
@@ -94,16 +94,16 @@ class Publisher(TopicEnd):
     """Publisher of messages on a topic."""
 
     def __init__(
-        self, seat: NodeSeat, kind: type[Message], topic: str, full: str, profile: QoSProfile
+        self, state: NodeState, kind: type[Message], topic: str, full: str, profile: QoSProfile
     ) -> None:
-        super().__init__(seat, None, PUBLISHER, kind, topic, full, profile)
+        super().__init__(state, None, PUBLISHER, kind, topic, full, profile)
         self._withdrawn = False
         self._lease: Silence | None = None
         timing = self._quality.timing
         if timing is not None and timing.is_manual:
-            seat.world.endpoints.set_alive(self.endpoint, False)
-            self._lease = Silence(seat, timing.lease, self._expired)
-        self._leave = seat.world.endpoints.add(self.endpoint)
+            state.world.endpoints.set_alive(self.endpoint, False)
+            self._lease = Silence(state, timing.lease, self._expired)
+        self._leave = state.world.endpoints.add(self.endpoint)
 
     def publish(self, msg: Any) -> None:
         """Send a message, given as an object or as bytes in serialised form.
@@ -120,15 +120,15 @@ class Publisher(TopicEnd):
             msg = deserialize_message(msg, self.msg_type)
         if not isinstance(msg, self.msg_type):
             raise TypeError(f"Expected {self.msg_type}, got {type(msg)}")
-        seat = self.seat
+        state = self.node_state
         value = values.pack(msg, self._carried)
         if self.full in values.TF_TOPICS and isinstance(value, TransformMessage):
             static = self.full == "tf_static"
-            seat.program.ask(
-                lambda: seat.world.broadcast(value.transforms, seat.authority, static=static)
+            state.program.ask(
+                lambda: state.world.broadcast(value.transforms, state.authority, static=static)
             )
             return
-        seat.program.ask(lambda: self._send(value))
+        state.program.ask(lambda: self._send(value))
 
     def _send(self, value: Any) -> None:
         self._be_alive()
@@ -140,22 +140,22 @@ class Publisher(TopicEnd):
 
     def get_subscription_count(self) -> int:
         """Return the number of subscriptions to the topic."""
-        count = int(self.seat.program.ask(lambda: self._topic.subscribers))
+        count = int(self.node_state.program.ask(lambda: self._topic.subscribers))
         if not count:
-            self.seat.program.count_failed_query(must_keep_pace=False)
+            self.node_state.program.count_failed_query(must_keep_pace=False)
         return count
 
     def assert_liveliness(self) -> None:
         """Report that this publisher is alive, for liveliness MANUAL_BY_TOPIC."""
-        self.seat.program.ask(self._be_alive)
+        self.node_state.program.ask(self._be_alive)
 
     def _be_alive(self) -> None:
         if self._lease is not None:
             self._lease.end()
-            self.seat.world.endpoints.set_alive(self.endpoint, True)
+            self.node_state.world.endpoints.set_alive(self.endpoint, True)
 
     def _expired(self) -> None:
-        self.seat.world.endpoints.set_alive(self.endpoint, False)
+        self.node_state.world.endpoints.set_alive(self.endpoint, False)
         if self.event_watch is not None:
             self.event_watch.lease_expired()
 
@@ -190,7 +190,7 @@ class Subscription(TopicEnd):
 
     def __init__(
         self,
-        seat: NodeSeat,
+        state: NodeState,
         kind: type[Message],
         topic: str,
         full: str,
@@ -199,21 +199,21 @@ class Subscription(TopicEnd):
         group: Any,
         raw: bool = False,
     ) -> None:
-        super().__init__(seat, group, SUBSCRIPTION, kind, topic, full, profile, self._accept)
+        super().__init__(state, group, SUBSCRIPTION, kind, topic, full, profile, self._accept)
         self.raw = raw
         self.callback: Callable[..., Any] = callback
         self._queue: deque[Any] = deque(maxlen=_queue_limit(profile))
         self._takes_info = not accepts(callback, None) and accepts(callback, None, None)
-        self._leave = seat.world.endpoints.add(self.endpoint)
-        self._stop = self._topic.subscribe(self._arrived, seat.authority)
+        self._leave = state.world.endpoints.add(self.endpoint)
+        self._stop = self._topic.subscribe(self._arrived, state.authority)
         if self._quality.is_latched:
-            for value, sender in seat.stored_messages(full):
+            for value, sender in state.stored_messages(full):
                 self._accept(value, sender)
 
     def get_publisher_count(self) -> int:
         """Return the number of publishers of the topic."""
-        ends = self.seat.world.endpoints
-        return int(self.seat.program.ask(lambda: len(ends.of(self.full, PUBLISHER))))
+        ends = self.node_state.world.endpoints
+        return int(self.node_state.program.ask(lambda: len(ends.of(self.full, PUBLISHER))))
 
     def _arrived(self, value: Any) -> None:
         sender = self._topic.sender
@@ -223,8 +223,8 @@ class Subscription(TopicEnd):
     def _accept(self, value: Any, sender: Endpoint | None) -> None:
         # Messages of a publisher with an incompatible quality of service are ignored.
         if sender is None or not conflict(sender.quality, self._quality):
-            self._queue.append((self.seat.world.clock.now(), value))
-            self.seat.wake()
+            self._queue.append((self.node_state.world.clock.now(), value))
+            self.node_state.wake()
             if self.event_watch is not None:
                 self.event_watch.message_passed()
 
@@ -285,7 +285,7 @@ class RosoutPublisher(Publisher):
         """
         file, function, line = place
         message = self.msg_type(
-            stamp=values.time_message(self.seat.world.clock.now()),
+            stamp=values.time_message(self.node_state.world.clock.now()),
             level=level,
             name=logger,
             msg=text,

@@ -15,7 +15,7 @@ from tftool.messages.classes import INTERFACES
 from tftool.ros.host import values
 from tftool.ros.rclpy.entities import NodeEntity, Work
 from tftool.ros.rclpy.node import Node
-from tftool.ros.rclpy.seat import NodeSeat, seat_of
+from tftool.ros.rclpy.node_state import NodeState, state_of
 from tftool.ros.tf2.buffer import Buffer
 from tftool.world.clock import Phase
 from tftool.world.world import TransformMessage
@@ -57,7 +57,7 @@ class TransformListener:
         self.buffer = buffer
         self.node = node
         self._stops: list[Callable[[], None]] = []
-        self._member = seat_of(node)
+        self._member = state_of(node)
         self._member.program.listens = True
         buffer.hints.has_listener = True
         self._member.keep(self._listen, static_only)
@@ -116,15 +116,15 @@ class _Arrivals(NodeEntity):
 
     only_ends_spin_once = True
 
-    def __init__(self, seat: NodeSeat, stop: Callable[[], None]) -> None:
-        super().__init__(seat, None)
+    def __init__(self, state: NodeState, stop: Callable[[], None]) -> None:
+        super().__init__(state, None)
         self._stop = stop
         self._any = False
 
     def note(self) -> None:
         """Record that transforms have arrived; call this in the event loop's thread."""
         self._any = True
-        executor = self.seat.executor
+        executor = self.node_state.executor
         if executor is not None and executor.spins_once:
             executor.wake()
 
@@ -151,7 +151,7 @@ class TransformBroadcaster:
         self.node = node
         self._told: set[tuple[str, str]] = set()
         self._turns: dict[str, int] = {}
-        self._member = seat_of(node)
+        self._member = state_of(node)
         self._member.program.broadcasts = True
         self._has_sent = False
         self._member.program.ask(self._watch_silence)
@@ -188,10 +188,10 @@ class TransformBroadcaster:
         self._member.program.ask(partial(self._broadcast, sent))
 
     def _broadcast(self, sent: list[TransformStamped]) -> None:
-        seat = self._member
+        state = self._member
         for sample in sent:
             self._check_parent(sample.frame_id, sample.child_frame_id)
-        seat.world.broadcast(sent, seat.authority, static=self._static)
+        state.world.broadcast(sent, state.authority, static=self._static)
 
     def _check_parent(self, parent: str, child: str) -> None:
         """Log a warning if a parent and child are swapped, or a child frame has two parents.

@@ -16,7 +16,7 @@ from tftool.ros.rclpy.action_client import ActionClient
 from tftool.ros.rclpy.action_server import ActionServer
 from tftool.ros.rclpy.executors import wait_for
 from tftool.ros.rclpy.futures import Future
-from tftool.ros.rclpy.seat import seat_of
+from tftool.ros.rclpy.node_state import state_of
 from tftool.ros.rclpy.time import Duration
 from tftool.ros.tf2.buffer import (
     Buffer,
@@ -85,13 +85,13 @@ class BufferClient(BufferInterface):
         extra = nanoseconds_of(padding) / 1e9 if isinstance(padding, Duration) else float(padding)
         # The response needs some time to arrive, even if no padding is added.
         limit = nanoseconds_of(timeout) / 1e9 + max(extra, 0.1)
-        seat = seat_of(self.node)
+        state = state_of(self.node)
         sent = self.action_client.send_goal_async(goal)
-        wait_for(seat, sent, limit)
+        wait_for(state, sent, limit)
         if not sent.done() or not sent.result().accepted:
             raise TimeoutException("The BufferServer did not take the goal in time.")
         answer = sent.result().get_result_async()
-        wait_for(seat, answer, limit)
+        wait_for(state, answer, limit)
         if not answer.done():
             raise TimeoutException("The BufferServer did not answer in time.")
         result = answer.result().result

@@ -21,7 +21,7 @@ from tftool.world.world import TransformMessage, World
 T = TypeVar("T")
 
 
-class NodeSeat:
+class NodeState:
     """tftool's state of one rclpy node, for its publishers, timers and services, and its executor.
 
     Attributes:
@@ -228,16 +228,16 @@ class NodeSeat:
             stop()
 
 
-def seat_of(node: Any) -> NodeSeat:
+def state_of(node: Any) -> NodeState:
     """Return tftool's state of a user's node.
 
     Raises:
         TypeError: If `node` is not a node, or its `__init__` did not call `super().__init__`.
     """
-    seat = getattr(node, "_tftool", None)
-    if not isinstance(seat, NodeSeat):
+    state = getattr(node, "_tftool", None)
+    if not isinstance(state, NodeState):
         raise TypeError(
             f"expected a node, got {type(node).__name__}: in a class derived from Node, first "
             "call super().__init__('its_name')"
         )
-    return seat
+    return state
