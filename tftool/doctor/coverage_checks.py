@@ -14,10 +14,9 @@ from tftool.doctor.findings import Area, Fix, Hit, Severity
 from tftool.doctor.gap_checks import gap, holes
 from tftool.doctor.missing_joins import has_base, is_mount
 from tftool.doctor.model import WARM_UP, Limits, Model
-from tftool.doctor.ros_words import is_ros1
 from tftool.doctor.stamp_checks import stands_still
 from tftool.doctor.stamp_stream import NEVER, PLACED, Heard, Track, last_part
-from tftool.doctor.wording import ALIKE, arrival, least_rate, rounded_up, span
+from tftool.doctor.wording import ALIKE, arrival, is_ros1, least_rate, rounded_up, span
 from tftool.recordings.contract import Stamps, percentile
 
 check = checks_of(Area.COVERAGE)

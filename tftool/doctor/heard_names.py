@@ -15,9 +15,8 @@ from tftool.doctor.missing_joins import (
 )
 from tftool.doctor.model import LAP, Limits, Model
 from tftool.doctor.name_checks import distance
-from tftool.doctor.ros_words import is_ros1
 from tftool.doctor.stamp_stream import PLACED, Heard, last_part
-from tftool.doctor.wording import several, span
+from tftool.doctor.wording import is_ros1, several, span
 
 check = checks_of(Area.NAMES)
 

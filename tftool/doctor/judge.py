@@ -33,8 +33,7 @@ from tftool.doctor.check import NEEDS, Check
 from tftool.doctor.evidence import Evidence, described_by, evidence_of, evidence_of_log
 from tftool.doctor.findings import Area, Confidence, Finding, Fix, Hit, Severity, Skipped
 from tftool.doctor.model import Limits, Model, Settings
-from tftool.doctor.ros_words import in_words
-from tftool.doctor.wording import evidence_lines, filled, several
+from tftool.doctor.wording import evidence_lines, filled, in_words, several
 from tftool.frames.transform_log import TransformLog
 
 if TYPE_CHECKING:

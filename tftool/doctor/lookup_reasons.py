@@ -16,12 +16,20 @@ from tftool.doctor.heard_names import alike_frames, is_navsat_output
 from tftool.doctor.missing_joins import is_world, mount_command, proposed_frame, proposed_join
 from tftool.doctor.model import Model
 from tftool.doctor.name_checks import wrong_type
-from tftool.doctor.ros_words import in_words, is_ros1
 from tftool.doctor.shape_checks import nothing_says
 from tftool.doctor.stamp_stream import Heard, Track, last_part
 from tftool.doctor.trace import LinkVerdict, LookupTrace, TracedLink
 from tftool.doctor.value_checks import bad_quaternion
-from tftool.doctor.wording import dated, least_rate, moment, rounded_up, several, span
+from tftool.doctor.wording import (
+    dated,
+    in_words,
+    is_ros1,
+    least_rate,
+    moment,
+    rounded_up,
+    several,
+    span,
+)
 
 if TYPE_CHECKING:
     pass

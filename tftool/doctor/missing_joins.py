@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from tftool.doctor.findings import Edge, Fix
 from tftool.doctor.model import Model, Tree
-from tftool.doctor.ros_words import is_ros1
 from tftool.doctor.stamp_stream import BASES, JOINT_STATES, Heard, Track, last_part
+from tftool.doctor.wording import is_ros1
 from tftool.geometry.rigid import Transform
 
 _PLAIN = frozenset({"base", "link", "frame", "footprint", "body", ""})

@@ -14,8 +14,8 @@ import numpy as np
 from tftool.base.common_ancestor import climbed, up_to_join
 from tftool.base.stamps import CACHE_TIME, SIMULATED_BELOW, Duration, Stamp, seconds
 from tftool.doctor.evidence import Evidence
-from tftool.doctor.ros_words import is_ros1, ros_words
 from tftool.doctor.stamp_stream import BASES, JOINT_STATES, WILD, Heard, Stream, Track, last_part
+from tftool.doctor.wording import is_ros1, ros_words
 from tftool.recordings.contract import Stamps
 from tftool.recordings.description_frames import prefix_of
 from tftool.recordings.timeline import through_clock

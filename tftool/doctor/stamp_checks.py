@@ -9,8 +9,8 @@ from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, seconds
 from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Fact, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
-from tftool.doctor.ros_words import is_ros1
 from tftool.doctor.stamp_stream import Heard, Track, unsorted_share
+from tftool.doctor.wording import is_ros1
 from tftool.recordings.contract import Stamps, percentile
 
 check = checks_of(Area.CLOCKS)

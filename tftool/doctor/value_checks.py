@@ -11,9 +11,8 @@ from tftool.doctor.findings import Area, Confidence, Edge, Fix, Hit, Severity
 from tftool.doctor.gap_checks import is_detection
 from tftool.doctor.missing_joins import base_of, is_world, quoted
 from tftool.doctor.model import Limits, Model
-from tftool.doctor.ros_words import is_ros1
 from tftool.doctor.stamp_stream import BASES, ZERO_QUATERNION, Places, Track, last_part
-from tftool.doctor.wording import metres, moment, several, span
+from tftool.doctor.wording import is_ros1, metres, moment, several, span
 from tftool.geometry.quaternions import IDENTITY, Triple, angle_between, multiply, rotate
 from tftool.geometry.rigid_arrays import Floats, rotation_vectors, unit
 from tftool.geometry.rigid_arrays import rotate as rotate_all

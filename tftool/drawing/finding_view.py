@@ -20,9 +20,8 @@ from tftool.doctor.check import Check
 from tftool.doctor.findings import Area, Confidence, Finding, Severity
 from tftool.doctor.judge import CHECKS, Diagnosis
 from tftool.doctor.model import Model
-from tftool.doctor.ros_words import in_words
 from tftool.doctor.stamp_stream import Heard, Stream, Track, rate
-from tftool.doctor.wording import MOST_IN_LINE, filled, several, span
+from tftool.doctor.wording import MOST_IN_LINE, filled, in_words, several, span
 from tftool.drawing import report_view as judgements
 from tftool.recordings.contract import percentile
 
