@@ -12,7 +12,7 @@ from tftool.robots.robot_model import Robot
 from tftool.robots.urdf import parse_description
 from tftool.screens.terminal import frames_picture as frames_seen
 from tftool.screens.terminal.scene import Scene, scene_of
-from tftool.screens.terminal.space_scene import space_picture
+from tftool.screens.terminal.space_panel import space_picture
 from tftool.world.clock import SimClock, run
 from tftool.world.node import Node
 from tftool.world.nodes.joints import RobotStatePublisher

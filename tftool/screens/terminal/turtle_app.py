@@ -26,8 +26,12 @@ from tftool.screens.terminal.plane_view import PlaneView
 from tftool.screens.terminal.question import SceneQuestion
 from tftool.screens.terminal.scene import Scene, SceneMoment
 from tftool.screens.terminal.screen_options import SMALLEST, Setting, arranged
-from tftool.screens.terminal.space_panel import SPACE_BINDINGS, SpacePanel
-from tftool.screens.terminal.space_scene import opens_in_space, space_picture
+from tftool.screens.terminal.space_panel import (
+    SPACE_BINDINGS,
+    SpacePanel,
+    opens_in_space,
+    space_picture,
+)
 from tftool.screens.terminal.text_style import wrapped
 from tftool.screens.terminal.world_app import FRAME_CSS, Panel, PanelApp
 from tftool.world.nodes.turtle_drivers import IdleDrawing
