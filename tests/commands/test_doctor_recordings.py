@@ -57,7 +57,7 @@ def test_a_scan_is_explained_by_when_it_arrived(tftool, tmp_path):
     run = write_mcap(tmp_path / "run.mcap", drive())
     result = tftool("explain", "odom", "laser", run, "--message", "/scan@2")
     assert result.status == 0
-    assert "when /scan of that stamp arrived (15 ms after it)" in result.out
+    assert "when the message on /scan with this stamp arrived (15 ms later)" in result.out
     with open_recording(run) as recording:
         assert diagnose(recording) == []
         assert explain(recording, "odom", "laser", START + 2 * SECOND).available

@@ -52,7 +52,10 @@ def test_a_joint_without_a_position_is_named_with_the_line_that_gives_it_one():
 
 def test_a_mimic_that_is_driven_beyond_its_limits_is_told():
     found = asked("base", "tool", shoulder=0.75)
-    assert any("'elbow' follows 'shoulder' beyond its limits, -1 to 1 rad" in w for w in found.why)
+    assert any(
+        "'elbow', which follows 'shoulder', is beyond its limits, -1 to 1 rad" in w
+        for w in found.why
+    )
 
 
 def test_a_floating_joint_is_why_a_lookup_refuses():

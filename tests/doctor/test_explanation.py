@@ -34,7 +34,7 @@ def test_what_has_not_come_yet_is_told_with_the_wait_that_serves_it():
     assert not found.available
     assert found.exception == "ForwardExtrapolationException"
     assert "latest data is at time 1750000004.000000" in found.text
-    assert found.because == "when /scan of that stamp arrived"
+    assert found.because == "when the message on /scan with this stamp arrived"
     assert found.asked == T + seconds(4.265)
     assert found.refusing == ("odom", "base_link")
     assert [link.verdict for link in found.links] == [LinkVerdict.ANSWERS, LinkVerdict.FORWARD]

@@ -46,7 +46,7 @@ class Explanation:
         source: Source frame of the lookup.
         stamp: Time of the lookup; 0 for the latest.
         asked: Log time at which the lookup is made, nanoseconds.
-        because: Reason for the log time `asked`, such as "when /scan of that stamp arrived"; empty
+        because: Reason for the log time `asked`, such as "at the end"; empty
             if the user gave the time.
         after: Latency of the message with that stamp, nanoseconds; 0 without such a message. None
             for the latest time, and if the user gave the log time.

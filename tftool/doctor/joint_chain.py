@@ -179,7 +179,7 @@ def _answered(links: tuple[ChainLink, ...], target: str, source: str, name: str)
             and not limits[0] <= link.position <= limits[1]
         ):
             why.append(
-                f"joint '{link.joint.name}' follows '{link.leader}' beyond its limits, "
+                f"joint '{link.joint.name}', which follows '{link.leader}', is beyond its limits, "
                 f"{limits[0]:.4g} to {limits[1]:.4g} {link.joint.unit}"
             )
     if not open_ones:

@@ -207,8 +207,8 @@ class Model:
     def is_parted(self) -> bool:
         """Whether one robot_state_publisher sends frames of several trees, without any statics.
 
-        A robot description is one tree, so the fixed joints between these trees are missing. Early
-        ROS 1 sends fixed joints on /tf, half a second ahead; then they are not missing.
+        A robot description is one tree, so the fixed joints between these trees are missing. The
+        result is False if the fixed joints are on /tf, half a second ahead, as in early ROS 1.
         """
         roots: dict[str, set[str]] = defaultdict(set)
         for track in () if self.statics else self.dynamic:

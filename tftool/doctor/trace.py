@@ -169,7 +169,7 @@ class LookupTrace:
             places = np.flatnonzero(self.heard.stamps == self.stamp)
             if len(places):
                 place = int(places[0])
-                told = f"when {self.heard.topic} of that stamp arrived"
+                told = f"when the message on {self.heard.topic} with this stamp arrived"
                 after = int(self.heard.latency[place])
                 return int(self.heard.logs[place]) + self.question.timeout, told, after
         return self.model.log_of(self.stamp) + self.question.timeout, "at that moment", 0

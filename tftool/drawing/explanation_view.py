@@ -33,7 +33,7 @@ def render(explanation: Explanation) -> RenderableType:
     facts.add_column(overflow="fold")
     if explanation.text:
         facts.add_row("tf2", Text(visible_lines(explanation.text)))
-    after = f" ({span(explanation.after)} after it)" if explanation.after else ""
+    after = f" ({span(explanation.after)} later)" if explanation.after else ""
     facts.add_row(
         "asked",
         Text(visible(f"{_exactly(explanation.asked)}, {explanation.because}{after}"))

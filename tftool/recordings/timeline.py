@@ -160,7 +160,10 @@ class Timeline:
         return frozenset(name for edge in edges for name in (edge.parent, edge.child))
 
     def place(self, moment: Stamp, *, after: bool = False) -> int:
-        """Return the number of the first message at or after `moment`; with `after`, only after."""
+        """Return the number of the first message at or after `moment`.
+
+        With `after`, a message exactly at `moment` does not count.
+        """
         return int(np.searchsorted(self.moments, moment, side="right" if after else "left"))
 
     def is_plain(self) -> npt.NDArray[np.bool_]:

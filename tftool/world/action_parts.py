@@ -149,8 +149,7 @@ class ActionParts:
             undecided: Number of goals on which the action's server has not decided yet.
 
         Returns:
-            Number of goals above the limit, counting the new goal; not positive if the new goal
-            fits.
+            Number of goals that are still too many; 0 or less if the new goal is allowed.
         """
         surplus = len(self._goals) + undecided + 1 - KEPT
         ended = [goal_id for goal_id, (goal, _) in self._goals.items() if goal.done]

@@ -133,7 +133,7 @@ class Intervals:
 
 
 class MovingEdge:
-    """An edge whose pose changes, with precomputed tables for a batch lookup."""
+    """A moving edge (frame and its parent), with precomputed tables for a batch lookup."""
 
     __slots__ = ("_buckets", "column", "intervals")
 
