@@ -156,9 +156,12 @@ def _is_placed_by_stamp(model: Model, stream: "Track | Heard") -> bool:
 
 
 def _others(model: Model, reported: "list[Track | Heard]", family: int) -> str:
-    """Return "other streams" if a stream outside `reported` uses one clock, else "all others".
+    """Return "other streams" if any stream outside `reported` is on a clock, else "all others".
 
-    The clock `family` is 0 for a simulation's clock and 1 for the wall clock.
+    Args:
+        model: Model of the evidence.
+        reported: Streams of a finding.
+        family: The clock: 0 for a simulation's clock, 1 for the wall clock.
     """
     streams: list[Track | Heard] = [*model.tracks, *model.heard]
     also = any(one.families[family] for one in streams if one not in reported)

@@ -268,7 +268,7 @@ class BlockArrays:
             self._join(translations, rotations)
 
     def _climb(self, side: _Side, edges: Sequence[Edge], times: Stamps, in_order: bool) -> None:
-        """Multiply the poses of one side's edges at each time, into the arrays of `side`."""
+        """Write the product of the poses of `edges` at each time into the arrays of `side`."""
         side.empty = not edges
         # In groups: one numpy call serves several edges, as long as the arrays fit into the
         # cache.

@@ -392,7 +392,7 @@ class TurtlePorts:
         self._turtle.leave()
 
     def remove_topics(self) -> None:
-        """Remove topics without a subscriber; a later turtle of this name uses the other topics."""
+        """Remove topics without a subscriber; other topics stay for a later turtle of this name."""
         for what in ("pose", "color_sensor", "cmd_vel"):
             topic = self._world.topics().get(self._prefix + what)
             if topic is not None and not topic.subscribers:

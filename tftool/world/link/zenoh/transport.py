@@ -83,18 +83,18 @@ class Wire:
         oversized: Number of received messages that were dropped because of the size limit.
     """
 
-    def __init__(self, reach: ZenohReach, place: Rendezvous | None) -> None:
+    def __init__(self, reach: ZenohReach, rendezvous: Rendezvous | None) -> None:
         """Open the session; callbacks are queued until `start`.
 
         Args:
             reach: Networks to use beyond this machine.
-            place: Folder of the sockets of this machine's processes; None to connect to none.
+            rendezvous: Folder of the sockets of this machine's processes; None to connect to none.
 
         Raises:
             LinkError: If zenoh is missing, or an endpoint cannot be used.
         """
         self._zenoh = import_zenoh()
-        self._session = open_zenoh(self._zenoh, reach, place)
+        self._session = open_zenoh(self._zenoh, reach, rendezvous)
         self.zid = str(self._session.zid())
         self.oversized = 0
         self._inbox = Inbox()
@@ -350,13 +350,13 @@ def import_zenoh() -> Any:
     return zenoh
 
 
-def open_zenoh(zenoh: Any, reach: ZenohReach, place: Rendezvous | None) -> Any:
+def open_zenoh(zenoh: Any, reach: ZenohReach, rendezvous: Rendezvous | None) -> Any:
     """Open a zenoh session.
 
     Args:
         zenoh: The imported library.
         reach: Networks to use beyond this machine.
-        place: Folder of the sockets of this machine's processes; None to connect to none.
+        rendezvous: Folder of the sockets of this machine's processes; None to connect to none.
 
     Raises:
         LinkError: If an endpoint or a file cannot be used.
@@ -368,7 +368,7 @@ def open_zenoh(zenoh: Any, reach: ZenohReach, place: Rendezvous | None) -> Any:
             config.insert_json5("timestamping/enabled", "true")
         else:
             config = zenoh.Config()
-            for key, value in settings(reach, place).items():
+            for key, value in settings(reach, rendezvous).items():
                 config.insert_json5(key, json.dumps(value))
         return zenoh.open(config)
     except Exception as error:
@@ -380,15 +380,15 @@ def open_zenoh(zenoh: Any, reach: ZenohReach, place: Rendezvous | None) -> Any:
         ) from error
 
 
-def settings(reach: ZenohReach, place: Rendezvous | None) -> dict[str, Any]:
+def settings(reach: ZenohReach, rendezvous: Rendezvous | None) -> dict[str, Any]:
     """Return the settings for zenoh, whose defaults would listen on every interface."""
     outward = bool(reach.listen or reach.connect)
     found: dict[str, Any] = {
         # A router forwards between this machine's processes, which are connected
         # directly, and other machines; a peer forwards nothing.
         "mode": "router" if outward else "peer",
-        "listen/endpoints": [*([] if place is None else [place.endpoint]), *reach.listen],
-        "connect/endpoints": [*([] if place is None else place.others), *reach.connect],
+        "listen/endpoints": [*([] if rendezvous is None else [rendezvous.endpoint]), *reach.listen],
+        "connect/endpoints": [*([] if rendezvous is None else rendezvous.others), *reach.connect],
         "listen/exit_on_failure": True,
         "connect/timeout_ms": -1,
         "connect/exit_on_failure": False,
@@ -405,11 +405,11 @@ def settings(reach: ZenohReach, place: Rendezvous | None) -> dict[str, Any]:
         "transport/unicast/accept_timeout": _FAR_HELLO if outward else _NEAR_HELLO,
         "transport/link/tx/queue/congestion_control/block/wait_before_close": _CONGESTED,
     }
-    if place is not None and place.password:
+    if rendezvous is not None and rendezvous.password:
         found |= {
             "transport/auth/usrpwd/user": USER,
-            "transport/auth/usrpwd/password": place.password,
-            "transport/auth/usrpwd/dictionary_file": str(place.folder / PASSWORDS),
+            "transport/auth/usrpwd/password": rendezvous.password,
+            "transport/auth/usrpwd/dictionary_file": str(rendezvous.folder / PASSWORDS),
         }
     if reach.certificates is not None:
         files = reach.certificates
