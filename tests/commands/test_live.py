@@ -102,7 +102,7 @@ def test_a_launch_file_that_cannot_be_read_leaves_the_session_at_once(launched, 
     done = run("launch", file)
 
     assert done.returncode == 3
-    assert "'Nope' of launch is not covered" in done.stderr
+    assert "'Nope' of launch is not supported" in done.stderr
 
 
 def test_an_action_client_of_another_process_turns_the_turtle(launched):

@@ -78,7 +78,7 @@ def test_names_that_are_re_exported_are_the_same_ones():
     [("rclpy.qos", "Node"), ("launch.actions", "LaunchContext"), ("launch", "LogInfo")],
 )
 def test_a_module_that_does_not_import_a_name_in_ros_lacks_this_name(module, name):
-    with ros_free(), pytest.raises(AttributeError, match=f"'{name}' of {module} is not covered"):
+    with ros_free(), pytest.raises(AttributeError, match=f"'{name}' of {module} is not supported"):
         getattr(importlib.import_module(module), name)
 
 

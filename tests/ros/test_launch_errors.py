@@ -66,8 +66,8 @@ def test_what_cannot_be_launched_is_said_in_one_sentence(tmp_path, action, told)
         ("a.py", "x = 1", "no function generate_launch_description"),
         ("a.py", "def generate_launch_description(): pass", "must return a LaunchDescription"),
         ("a.py", "import nonesuch", "No module named 'nonesuch'"),
-        ("a.py", "from launch.actions import Nod", "'Nod' of launch.actions is not covered"),
-        ("a.py", "import launch_testing.junitxml", "launch_testing.junitxml is not covered"),
+        ("a.py", "from launch.actions import Nod", "'Nod' of launch.actions is not supported"),
+        ("a.py", "import launch_testing.junitxml", "launch_testing.junitxml is not supported"),
         (
             "a.py",
             "from launch.actions import LogInfo\ndef generate_launch_description():\n"

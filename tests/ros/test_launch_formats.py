@@ -241,15 +241,15 @@ def test_a_mistake_in_xml_is_told_with_its_line_and_the_nearest_word(tmp_path, t
 @pytest.mark.parametrize(
     ("line", "told"),
     [
-        ("from launch.actions import OpaqueCoroutine", "of launch.actions is not covered"),
-        ("from launch.actions import GroupActon", "is not covered; did you mean 'GroupAction'?"),
+        ("from launch.actions import OpaqueCoroutine", "of launch.actions is not supported"),
+        ("from launch.actions import GroupActon", "is not supported; did you mean 'GroupAction'?"),
         (
             "import launch_ros.remap_rules",
-            "launch_ros.remap_rules is not covered",
+            "launch_ros.remap_rules is not supported",
         ),
     ],
 )
-def test_what_is_not_covered_is_named_with_where_to_look(tmp_path, line, told):
+def test_an_unsupported_name_is_named_with_where_to_look(tmp_path, line, told):
     file = tmp_path / "a.launch.py"
     file.write_text(f"{line}\n")
 
@@ -257,7 +257,7 @@ def test_what_is_not_covered_is_named_with_where_to_look(tmp_path, line, told):
         launch(file, seconds=1)
 
     assert told in str(refused.value)
-    assert "page 'What of ROS is covered' in tftool's docs" in str(refused.value)
+    assert "page 'Supported parts of ROS' in tftool's docs" in str(refused.value)
     assert f"a.launch.py:1, in <module>: {line}" in str(refused.value)
 
 

@@ -567,11 +567,11 @@ LOOKUP = "lookup: {target: a, source: b}"
         ),
         (
             "{at: 1 s, lookup: {target: a, source: b}, value: {x: 1}, tolerance: 5 cm}",
-            "a tolerance with a unit must name its part: write {position: 5 cm}",
+            "a tolerance with a unit must name the quantity: write {position: 5 cm}",
         ),
         (
             "{at: 1 s, lookup: {target: a, source: b}, value: {x: 1}, tolerance: 5 deg}",
-            "a tolerance with a unit must name its part: write {angle: 5 deg}",
+            "a tolerance with a unit must name the quantity: write {angle: 5 deg}",
         ),
         (
             "{at: 1 s, frame: a, exists: no, parent: b}",

@@ -192,7 +192,7 @@ class LaidOutCommand(TyperCommand):
                 file = word
 
     def invoke(self, ctx: Any) -> Any:
-        """Run the command; use each option for pose files for the file before the option."""
+        """Run the command; each option for pose files applies to the file before the option."""
         given = ctx.meta.get(_POSES)
         if not given:
             return super().invoke(ctx)

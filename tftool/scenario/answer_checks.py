@@ -318,7 +318,7 @@ def _tolerance(node: Node, reading: Reading) -> Tolerance:
             if len(text) <= SHORT and text.endswith(tuple(unit.factors)):
                 raise reading.refuse(
                     node,
-                    f"a tolerance with a unit must name its part: write {{{part}: "
+                    f"a tolerance with a unit must name the quantity: write {{{part}: "
                     f"{visible(text)}}}",
                 )
         both = values.quantity(values.NUMBER, least=0.0)(node, reading)

@@ -76,7 +76,7 @@ class Reading:
         return found
 
     def part(self, node: Node, text: str) -> Scalar:
-        """Return `text`, a part of a value, as a node with the position of the whole value."""
+        """Return a part `text` of the value `node` as a value with the position of `node`."""
         return Scalar(node.place, text.replace("$", "$$"))
 
     def text(self, node: Node, noun: str) -> str:

@@ -19,13 +19,13 @@ FEW = 12
 """Largest number of names that a sentence lists, so that it stays readable."""
 
 WHERE_TO_LOOK = (
-    "the page 'What of ROS is covered' in tftool's docs lists what runs without ROS; "
+    "the page 'Supported parts of ROS' in tftool's docs lists what runs without ROS; "
     "with a sourced ROS 2 the real module is used"
 )
 
 DEFINED = (
-    "an interface is known by its definition: put the .msg, .srv or .action file into its "
-    "package in the workspace's src"
+    "interfaces need a definition: put the .msg, .srv or .action file into its package in the "
+    "workspace's src"
 )
 
 
@@ -52,7 +52,7 @@ def missing_name(module: str, name: str, existing: Sequence[str]) -> str:
     else:
         hint = f"{_listed(module, existing)}."
     remedy = DEFINED if package in INTERFACES.packages() else WHERE_TO_LOOK
-    return f"'{name}' of {module} is not covered{hint} {_sentence(remedy)}"
+    return f"'{name}' of {module} is not supported{hint} {_sentence(remedy)}"
 
 
 def undeclared(parameter: str, declared: Iterable[str]) -> str:
@@ -92,7 +92,7 @@ def missing_module(name: str) -> str:
     known = sorted(one for one in import_table.table() if one.startswith(f"{package}."))
     near = near_names(name, known, alike=0.8)
     hint = f"; did you mean '{near[0]}'?" if near else f"{_listed(package, known)}."
-    return f"{name} is not covered{hint} {_sentence(WHERE_TO_LOOK)}"
+    return f"{name} is not supported{hint} {_sentence(WHERE_TO_LOOK)}"
 
 
 def missing_package(name: str) -> str:

@@ -300,7 +300,7 @@ class Fiber:
         """Abandon a fiber whose code ignored KeyboardInterrupt; its daemon thread keeps running."""
         self.ended = True
         self.error = StuckError(
-            f"'{self.name}' did not stop at the end of the run. It is at: "
+            f"'{self.name}' did not stop at the end of the run: "
             f"{self.place() or 'no line of yours is running'}"
         )
 

@@ -137,9 +137,9 @@ def _installed_by_cmake(
 ) -> Iterator[tuple[str, PurePosixPath, Path]]:
     """Yield (kind, installed path, source file) of the files that a CMakeLists.txt installs.
 
-    The kind is PROGRAMS for programs in `lib`, whose installed path is relative to the prefix. The
-    kind is FILES for all other files, whose installed path is relative to the share directory.
-    Files whose installed path equals the path in the source folder are left out.
+    The kind PROGRAMS means a program in `lib`: its installed path is relative to the prefix. The
+    kind FILES means any other file: its installed path is relative to the share directory. Files
+    that are installed under their source path are left out.
     """
     pattern = r"^[ \t]*install\(\s*(PROGRAMS|FILES|DIRECTORY)\s+([^)]*)\)"
     for kind, call in re.findall(pattern, re.sub(r"#.*", "", text), re.M):

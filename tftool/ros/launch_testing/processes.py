@@ -24,12 +24,14 @@ def _limit(timeout: float | None) -> Callable[[], bool]:
     return lambda: end is not None and clock.now() >= end
 
 
-def _waits(condition: Condition, otherwise: Callable[[Any, Any], object]) -> tuple[Any, Any]:
+def _wait_functions(
+    condition: Condition, at_timeout: Callable[[Any, Any], object]
+) -> tuple[Any, Any]:
     """Return a coroutine function that waits for a condition, and its synchronous version.
 
     Args:
         condition: Function that returns whether the wait is over.
-        otherwise: Function called if the condition is still false at the timeout.
+        at_timeout: Function called if the condition is still false at the timeout.
     """
 
     async def wait(context: Any, action: Any, check: Any, timeout: float | None = None) -> bool:
@@ -38,7 +40,7 @@ def _waits(condition: Condition, otherwise: Callable[[Any, Any], object]) -> tup
             # This runs in the event loop of a user's test, whose time is the world's.
             await asyncio.sleep(as_seconds(SLICE))  # noqa: TID251
         if not holds:
-            otherwise(action, check)
+            at_timeout(action, check)
         return holds
 
     def wait_sync(context: Any, action: Any, check: Any, timeout: float | None = None) -> bool:
@@ -46,18 +48,20 @@ def _waits(condition: Condition, otherwise: Callable[[Any, Any], object]) -> tup
         while not (holds := bool(condition(action, check))) and not is_over():
             program.current().sleep(SLICE)
         if not holds:
-            otherwise(action, check)
+            at_timeout(action, check)
         return holds
 
     return wait, wait_sync
 
 
-def _waits_alone(condition: Callable[[Any], bool]) -> tuple[Any, Any]:
-    """Return a coroutine function that waits for a condition, and its synchronous version.
+def _wait_functions_for_action(condition: Callable[[Any], bool]) -> tuple[Any, Any]:
+    """Return a coroutine function that waits for a condition on an action, and a synchronous one.
 
-    The condition depends on the action only; the user passes no function that checks the output.
+    Unlike the results of `_wait_functions`, both functions take no function that checks output.
     """
-    wait_checked, wait_checked_sync = _waits(lambda action, _: condition(action), lambda *_: None)
+    wait_checked, wait_checked_sync = _wait_functions(
+        lambda action, _: condition(action), lambda *_: None
+    )
 
     async def wait(context: Any, action: Any, timeout: float | None = None) -> Any:
         return await wait_checked(context, action, None, timeout)
@@ -77,19 +81,23 @@ def _passes(check: Callable[[str], object], output: str) -> bool:
     return True
 
 
-wait_for_start, wait_for_start_sync = _waits_alone(lambda one: one.process_details is not None)
-wait_for_exit, wait_for_exit_sync = _waits_alone(lambda one: one.return_code is not None)
-wait_for_output, wait_for_output_sync = _waits(
+wait_for_start, wait_for_start_sync = _wait_functions_for_action(
+    lambda one: one.process_details is not None
+)
+wait_for_exit, wait_for_exit_sync = _wait_functions_for_action(
+    lambda one: one.return_code is not None
+)
+wait_for_output, wait_for_output_sync = _wait_functions(
     lambda action, check: check(action.get_stdout()), lambda *_: None
 )
-wait_for_stderr, wait_for_stderr_sync = _waits(
+wait_for_stderr, wait_for_stderr_sync = _wait_functions(
     lambda action, check: check(action.get_stderr()), lambda *_: None
 )
-assert_output, assert_output_sync = _waits(
+assert_output, assert_output_sync = _wait_functions(
     lambda action, check: _passes(check, action.get_stdout()),
     lambda action, check: check(action.get_stdout()),
 )
-assert_stderr, assert_stderr_sync = _waits(
+assert_stderr, assert_stderr_sync = _wait_functions(
     lambda action, check: _passes(check, action.get_stderr()),
     lambda action, check: check(action.get_stderr()),
 )

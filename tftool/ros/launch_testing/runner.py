@@ -74,7 +74,7 @@ def _cases(tests: Any) -> Iterator[Any]:
 
 
 def _bind(function: Callable[..., Any], values: Mapping[str, Any]) -> Callable[..., Any]:
-    """Bind the `values` that `function` takes as arguments; return the bound function."""
+    """Return `function` with arguments bound to `values` of the same names."""
     wanted = inspect.signature(function).parameters
     return functools.partial(function, **{k: v for k, v in values.items() if k in wanted})
 

@@ -119,7 +119,7 @@ class RcutilsLogger:
                 place = ("", "", 0)
                 if frame is not None:
                     place = frame.f_code.co_filename, frame.f_code.co_name, line
-                rosout.tell(int(severity), speaker, text, place)
+                rosout.publish_record(int(severity), speaker, text, place)
 
         owner.ask(say)
         return True

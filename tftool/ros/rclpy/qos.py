@@ -213,7 +213,7 @@ def _time(length: int | None) -> Duration:
 def profile_from(quality: Quality) -> QoSProfile:
     """Convert tftool's class for quality of service to a QoS profile.
 
-    If `quality` has no timing, deadline, lifespan and liveliness get default values.
+    Deadline, lifespan and liveliness get default values if `quality` has no timing.
     """
     timing = quality.timing or Timing()
     manual = timing.is_manual

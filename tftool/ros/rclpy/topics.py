@@ -274,16 +274,18 @@ class RosoutPublisher(Publisher):
         """Return whether a logger is the node's logger or a child of the node's logger."""
         return logger == self.logger or logger.startswith(f"{self.logger}.")
 
-    def tell(self, level: int, logger: str, text: str, place: tuple[str, str, int]) -> None:
+    def publish_record(
+        self, level: int, logger: str, text: str, source_line: tuple[str, str, int]
+    ) -> None:
         """Publish a log message; call this in the event loop's thread.
 
         Args:
             level: Severity of the message.
             logger: Name of the logger.
             text: The message.
-            place: File, function and line number of the code that logs.
+            source_line: File, function and line number of the code that logs.
         """
-        file, function, line = place
+        file, function, line = source_line
         message = self.msg_type(
             stamp=values.time_message(self.node_state.world.clock.now()),
             level=level,

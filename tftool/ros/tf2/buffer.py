@@ -47,7 +47,7 @@ class NotImplementedException(TransformException):
 
 
 class TransformRegistration:
-    """Registry with a function for each type of data, which transforms data of this type."""
+    """Registry of functions that transform data, one function for each type of data."""
 
     def print_me(self) -> None:
         """Do nothing; the method exists in ROS 2."""
