@@ -82,9 +82,9 @@ def run_command(words: Sequence[str], providers: "Providers | None" = None) -> i
     return status if isinstance(status, int) else ExitStatus.DONE
 
 
-def unknown_option(word: str, known: Iterable[str]) -> UsageError:
+def unknown_option(word: str, options: Iterable[str]) -> UsageError:
     """Return the error for an unknown option before the name of a command, with similar options."""
-    return UsageError(_did_you_mean(f"No such option: {word}", word, known))
+    return UsageError(_did_you_mean(f"No such option: {word}", word, options))
 
 
 def _did_you_mean(refusal: str, word: str, known: Iterable[str], quote: str = "") -> str:

@@ -85,25 +85,29 @@ def find_program(workspace: Workspace, target: str, further_words: Sequence[str]
 
 
 def start_program(
-    world: World, found: FoundProgram, *, on_exit: Callable[[Program], object], name: str = ""
+    world: World,
+    found_program: FoundProgram,
+    *,
+    on_exit: Callable[[Program], object],
+    name: str = "",
 ) -> None:
     """Start a Python file, or an executable of a package, as a program of a world.
 
     Args:
         world: World to join.
-        found: The program.
+        found_program: The program.
         on_exit: Function called when a user's program has ended.
         name: Name of the program and its node, unless `--ros-args` names the node; when
             empty, the name of the file or the executable.
     """
-    found.options.name = found.options.name or name or None
+    found_program.options.name = found_program.options.name or name or None
     executables.start(
         world,
-        found.executable,
-        label=world.free_name(name or found.name),
-        argv=found.argv,
-        arguments=found.arguments,
-        options=found.options,
+        found_program.executable,
+        label=world.free_name(name or found_program.name),
+        argv=found_program.argv,
+        arguments=found_program.arguments,
+        options=found_program.options,
         on_exit=on_exit,
     )
 

@@ -456,7 +456,7 @@ POSE_FORM = Form(
 
 
 def _rotation(
-    parts: Mapping[str, Any], reading: Reading, place: TextPlace
+    parts: Mapping[str, Any], reading: Reading, position: TextPlace
 ) -> tuple[Quaternion | None, str]:
     """Return (rotation, rotation as text) of an expected pose; (None, "") without a rotation."""
     angles = {key: parts[key] for key in ("roll", "pitch", "yaw") if parts[key] is not None}
@@ -464,13 +464,13 @@ def _rotation(
     if given is not None:
         if angles:
             raise reading.refuse(
-                place,
+                position,
                 "a value has a rotation, and also roll, pitch or yaw: leave one of the two out",
             )
         norm = math.hypot(*given)
         if abs(norm - 1.0) > 1e-3:
             raise reading.refuse(
-                place, f"the quaternion of a rotation must have length 1, not {norm:.6g}"
+                position, f"the quaternion of a rotation must have length 1, not {norm:.6g}"
             )
         unit = Quaternion(*(part / norm for part in given))
         return unit, f"rotation ({', '.join(f'{part:.6g}' for part in given)})"

@@ -18,8 +18,8 @@ def folder() -> Path:
     return shipped("scenarios", "turtles.yaml")
 
 
-def shipped(name: str, mark: str) -> Path:
-    """Return the folder `name` of tftool's own files, which must contain the file `mark`.
+def shipped(name: str, required_file: str) -> Path:
+    """Return the folder `name` of tftool's own files, which must contain `required_file`.
 
     In an installed wheel, the folder is inside the package. In a source checkout or an editable
     install, the folder is beside the package.
@@ -28,7 +28,7 @@ def shipped(name: str, mark: str) -> Path:
         InputError: If the folder is missing.
     """
     for place in (PACKAGE / name, PACKAGE.parent / name):
-        if (place / mark).exists():
+        if (place / required_file).exists():
             return place
     raise InputError(f"the built-in {name} are missing beside {PACKAGE}: install tftool again")
 

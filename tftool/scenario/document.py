@@ -89,9 +89,11 @@ class Document:
         unified = self.text.replace("\r\n", "\n").replace("\r", "\n").replace("\x85", "\n")
         self._lines = unified.replace("\u2028", "\n").replace("\u2029", "\n").split("\n")
 
-    def mistake(self, place: TextPlace, text: str) -> Mistake:
+    def mistake(self, position: TextPlace, text: str) -> Mistake:
         """Return a mistake that shows the line of a position, with a caret below the position."""
-        return Mistake.at(self.name, self._lines, place.line, place.column, text, width=place.width)
+        return Mistake.at(
+            self.name, self._lines, position.line, position.column, text, width=position.width
+        )
 
     def read(self) -> Node:
         """Parse the text; return the root of the tree.
@@ -125,9 +127,9 @@ class Document:
             )
         return root
 
-    def refuse(self, place: TextPlace, text: str, cause: Exception | None = None) -> NoReturn:
+    def refuse(self, position: TextPlace, text: str, cause: Exception | None = None) -> NoReturn:
         """Raise a ScenarioError with all mistakes so far, and with `text` as last mistake."""
-        raise ScenarioError(self.name, [*self.mistakes, self.mistake(place, text)]) from cause
+        raise ScenarioError(self.name, [*self.mistakes, self.mistake(position, text)]) from cause
 
 
 class _TreeReader:

@@ -132,42 +132,42 @@ class Reading:
             raise self.refuse(node, f"expected a list ({noun}); begin each item with '- '")
         return node.items
 
-    def record(self, node: Node, known: Mapping[str, Key], noun: str) -> dict[str, Any]:
+    def record(self, node: Node, readers: Mapping[str, Key], noun: str) -> dict[str, Any]:
         """Read a mapping; return the value of each known key, or the default of a missing key.
 
         Args:
             node: The mapping.
-            known: Readers of the known keys.
+            readers: Readers of the known keys.
             noun: Noun for messages, with its article, such as "a broadcaster".
         """
-        entries = self.entries(node, ", ".join(known) or "empty")
-        return self.values(node.place, entries, known, noun)
+        entries = self.entries(node, ", ".join(readers) or "empty")
+        return self.values(node.place, entries, readers, noun)
 
     def values(
         self,
-        place: TextPlace,
+        position: TextPlace,
         entries: Mapping[str, tuple[Scalar, Node]],
-        known: Mapping[str, Key],
+        readers: Mapping[str, Key],
         noun: str,
     ) -> dict[str, Any]:
         """Read a mapping's entries with the readers of the known keys, as `record` does."""
         whole = True
         meant = set()
         for name, (key, _) in entries.items():
-            if name not in known:
+            if name not in readers:
                 whole = False
-                meant.update(near_names(name, known))
-                near = suggest(name, known, always=True)
+                meant.update(near_names(name, readers))
+                near = suggest(name, readers, always=True)
                 self.note(key, f"{noun} has no key {quoted(name)}{near}")
         found: dict[str, Any] = {}
-        for name, wanted in known.items():
+        for name, wanted in readers.items():
             if name in entries:
                 found[name] = self.try_read(wanted.read, entries[name][1])
             elif wanted.default is REQUIRED:
                 whole = False
                 # A misspelt key is not also reported as missing.
                 if name not in meant:
-                    self.note(place, f"{noun} needs the key '{name}'")
+                    self.note(position, f"{noun} needs the key '{name}'")
             else:
                 found[name] = wanted.default
         self.whole(found.values())
@@ -264,18 +264,18 @@ def attribute_names(kind: type[Declared]) -> dict[str, str]:
     return {one.key or name: name for name, one in kind.declared.items()}
 
 
-def suggest(word: str, known: Iterable[str], *, always: bool = False) -> str:
+def suggest(word: str, known_words: Iterable[str], *, always: bool = False) -> str:
     """Return the end of a message about an unknown word: a similar known word, or all known words.
 
     Args:
         word: Unknown word.
-        known: Words that would be right.
+        known_words: Words that would be right.
         always: Whether to list all known words if no known word is similar.
 
     Returns:
         Text that begins with "; "; "" if no known word is similar and `always` is false.
     """
-    choices = list(known)
+    choices = list(known_words)
     meant = did_you_mean(word, choices)
     if meant or not always:
         return meant

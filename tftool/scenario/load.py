@@ -382,7 +382,7 @@ class _ScenarioReader:
         return (self.moment(node, reading),)
 
     def times(
-        self, place: document.TextPlace, values_by_key: Mapping[str, Any], reading: Reading
+        self, position: document.TextPlace, values_by_key: Mapping[str, Any], reading: Reading
     ) -> tuple[When, ...]:
         """Read the times at which an expectation is judged."""
         said = [key for key in _WHEN if values_by_key[key] is not None]
@@ -392,12 +392,14 @@ class _ScenarioReader:
         if said == ["at"]:
             if values_by_key["every"] is not None:
                 raise reading.refuse(
-                    place, "'every' is only allowed together with 'by', 'during' or 'always'"
+                    position, "'every' is only allowed together with 'by', 'during' or 'always'"
                 )
             return tuple(When("at", at, at, every) for at in values_by_key["at"])
         end = self.duration or 0
         if said == ["always"] and not values_by_key["always"]:
-            raise reading.refuse(place, "'always: false' tests nothing: leave the expectation out")
+            raise reading.refuse(
+                position, "'always: false' tests nothing: leave the expectation out"
+            )
         first, last = {
             "by": (0, values_by_key["by"]),
             "during": values_by_key["during"],
@@ -405,12 +407,13 @@ class _ScenarioReader:
         }[said[0]]
         if first > last:
             raise reading.refuse(
-                place, "the first time of 'during' is after the last time: exchange the two times"
+                position,
+                "the first time of 'during' is after the last time: exchange the two times",
             )
         self.judgements += (last - first) // every
         if self.judgements > MOST_JUDGEMENTS:
             raise reading.refuse(
-                place,
+                position,
                 f"the scenario makes more than {MOST_JUDGEMENTS:,} checks: give 'every' a longer "
                 "time",
             )

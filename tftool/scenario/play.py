@@ -172,7 +172,7 @@ USUAL = seconds(5)
 
 
 def played(
-    found: Found,
+    source: Found,
     until: Duration | float | At | None,
     margin: Duration,
     cache_time: Duration | None,
@@ -181,7 +181,7 @@ def played(
     """Play a scenario on simulated time, and return all its transforms.
 
     Args:
-        found: File of the scenario.
+        source: File of the scenario.
         until: Last time: a duration in nanoseconds, infinity for the whole scenario, or a time in
             the scenario; None for `USUAL`.
         margin: Nanoseconds to continue after the last time, because transforms can arrive late.
@@ -193,7 +193,7 @@ def played(
         NodeFailed: If a node raised an exception.
         UsageError: If the time `until` is outside the scenario.
     """
-    scenario = replace(load(found.paths[0], expects=False), expect=())
+    scenario = replace(load(source.paths[0], expects=False), expect=())
     if cache_time is not None:
         scenario = replace(scenario, cache_time=cache_time)
     clock = SimClock()
@@ -213,4 +213,6 @@ def played(
     memory = None if cache_time is None else cache_time + margin
     with heard_in(play.world, memory) as (buffer, log):
         run_apart(clock, play.live(end + margin))
-    return Frames("scenario", scenario.name, buffer=buffer, span=(start, end), log=log, found=found)
+    return Frames(
+        "scenario", scenario.name, buffer=buffer, span=(start, end), log=log, found=source
+    )

@@ -133,14 +133,14 @@ number = quantity(NUMBER)
 positive = quantity(NUMBER, least=0.0)
 
 
-def whole(least: int, most: int) -> Reader:
-    """Return a reader of integers from `least` to `most`."""
+def whole(minimum: int, maximum: int) -> Reader:
+    """Return a reader of integers from `minimum` to `maximum`."""
 
     def read(node: Node, reading: Reading) -> int:
         value = quantity(NUMBER)(node, reading)
-        if not (value.is_integer() and least <= value <= most):
+        if not (value.is_integer() and minimum <= value <= maximum):
             raise reading.refuse(
-                node, f"expected a whole number from {least} to {most}, not {value:g}"
+                node, f"expected a whole number from {minimum} to {maximum}, not {value:g}"
             )
         return int(value)
 
@@ -222,9 +222,9 @@ def choice(choices: Iterable[str], noun: str) -> Reader:
     return read
 
 
-def words(known: Iterable[str], noun: str) -> Reader:
-    """Return a reader of one or more words of `known`, separated by blanks."""
-    choices = tuple(known)
+def words(choices: Iterable[str], noun: str) -> Reader:
+    """Return a reader of one or more words of `choices`, separated by blanks."""
+    choices = tuple(choices)
 
     def read(node: Node, reading: Reading) -> tuple[str, ...]:
         found = tuple(reading.text(node, noun).split())

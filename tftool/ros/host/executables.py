@@ -366,7 +366,7 @@ def find(workspace: Workspace, package: str | None, executable: str) -> FoundExe
 
 def start(
     world: World,
-    found: FoundExecutable,
+    executable: FoundExecutable,
     *,
     label: str,
     argv: Sequence[str],
@@ -378,7 +378,7 @@ def start(
 
     Args:
         world: World to join.
-        found: The executable.
+        executable: The executable.
         label: Name of the program in log lines, such as "listener-4".
         argv: The program's whole `sys.argv`.
         arguments: The program's arguments, without the part after `--ros-args`.
@@ -388,9 +388,9 @@ def start(
     Raises:
         UsageError: If one of tftool's nodes rejects its arguments or parameters.
     """
-    if found.ours is not None:
-        return _start_ours(world, found.ours, arguments, options)
-    return Program(world, label, found.body, argv=argv, options=options, on_exit=on_exit)
+    if executable.ours is not None:
+        return _start_ours(world, executable.ours, arguments, options)
+    return Program(world, label, executable.body, argv=argv, options=options, on_exit=on_exit)
 
 
 def _start_ours(

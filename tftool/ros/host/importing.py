@@ -147,17 +147,17 @@ def load(imported: import_table.ImportedName) -> Any:
     return getattr(importlib.import_module(f".{package}", "tftool.ros"), imported.name)
 
 
-def _defined(ours: ModuleType) -> dict[str, Any]:
+def _defined(module: ModuleType) -> dict[str, Any]:
     """Return {name: value} of the public names that one of tftool's modules defines.
 
     Names that the module only imports are left out.
     """
-    # A copy, because another program's thread may import a submodule, which adds a name to `ours`.
+    # A copy, because another thread may import a submodule, which adds a name to `module`.
     return {
         name: value
-        for name, value in vars(ours).copy().items()
+        for name, value in vars(module).copy().items()
         if not (name.startswith("_") or isinstance(value, ModuleType))
-        and getattr(value, "__module__", ours.__name__) == ours.__name__
+        and getattr(value, "__module__", module.__name__) == module.__name__
     }
 
 

@@ -40,22 +40,22 @@ class StateMonitor:
             for wake in self._wakers:
                 wake()
 
-    def wait(self, take: Callable[[], bool], timeout: float | None = None) -> bool:
-        """Call `take` at once and after every change of the state, until `take` returns True.
+    def wait(self, attempt: Callable[[], bool], timeout: float | None = None) -> bool:
+        """Call `attempt` at once and after every change of the state, until `attempt` returns True.
 
         Args:
-            take: Function that checks the state and may change it; called while the mutex is held.
+            attempt: Function that checks the state and may change it, called under the mutex.
             timeout: Longest wait in seconds: of tftool's clock in a program's thread, of real time
                 in any other thread. None for no limit, 0 to check once.
 
         Returns:
-            Whether `take` returned True in time.
+            Whether `attempt` returned True in time.
 
         Raises:
             KeyboardInterrupt: If the program is interrupted during the wait.
         """
         with self._mutex:
-            if take():
+            if attempt():
                 return True
         owner = running_program()
         if timeout is not None and timeout <= 0.0:
@@ -63,9 +63,9 @@ class StateMonitor:
                 owner.count_failed_query()
             return False
         if owner is None:
-            return self._block(take, timeout)
+            return self._block(attempt, timeout)
         length = None if timeout is None else seconds(timeout)
-        return bool(owner.ask(lambda: self._wait(owner, take, length)))
+        return bool(owner.ask(lambda: self._wait(owner, attempt, length)))
 
     def sleep(self, owner: Any, length: Duration, is_over: Callable[[], bool]) -> None:
         """Block the calling thread until `is_over` returns True, at most for the time `length`.
@@ -105,15 +105,15 @@ class StateMonitor:
                 with self._mutex:
                     self._wakers.remove(wake)
 
-    def _block(self, take: Callable[[], bool], timeout: float | None) -> bool:
-        """Wait until `take` returns True; return False after `timeout` real seconds.
+    def _block(self, attempt: Callable[[], bool], timeout: float | None) -> bool:
+        """Wait until `attempt` returns True; return False after `timeout` real seconds.
 
         Only threads that belong to no user's program wait in real time.
         """
         changed = threading.Event()
         while True:
             with self._mutex:
-                if take():
+                if attempt():
                     return True
                 changed.clear()
                 self._wakers.append(changed.set)
@@ -124,7 +124,7 @@ class StateMonitor:
                     self._wakers.remove(changed.set)
             if not in_time:
                 with self._mutex:
-                    return take()
+                    return attempt()
 
 
 def _limit(blocking: bool, timeout: float | None) -> float | None:

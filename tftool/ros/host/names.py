@@ -72,23 +72,23 @@ class RosOptions:
         full = join(namespace, name)
         return {key: value for node, key, value in self.parameters if _fits(node, full, name)}
 
-    def remapped(self, full: str, name: str, namespace: str) -> str:
+    def remapped(self, full_name: str, name: str, namespace: str) -> str:
         """Apply a node's remapping rules to a full topic or service name.
 
         Args:
-            full: Full name, without leading slash.
+            full_name: Full name, without leading slash.
             name: The node's name.
             namespace: The node's namespace.
 
         Returns:
-            The new full name; `full` if no rule matches.
+            The new full name; `full_name` if no rule matches.
         """
         for rule in self.remaps:
             if rule.node is not None and rule.node.strip("/") not in (name, join(namespace, name)):
                 continue
-            if expand(rule.old, name, namespace) == full:
+            if expand(rule.old, name, namespace) == full_name:
                 return expand(rule.new, name, namespace)
-        return full
+        return full_name
 
 
 def _fits(pattern: str, full: str, name: str) -> bool:

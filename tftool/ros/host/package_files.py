@@ -133,7 +133,7 @@ def _listed_files(data_files: Any) -> frozenset[str] | None:
 
 
 def _installed_by_cmake(
-    text: str, folder: Path, share: str
+    text: str, folder: Path, share_path: str
 ) -> Iterator[tuple[str, PurePosixPath, Path]]:
     """Yield (kind, installed path, source file) of the files that a CMakeLists.txt installs.
 
@@ -152,9 +152,9 @@ def _installed_by_cmake(
             place = PurePosixPath(target) if inside else PurePosixPath(target, renamed or top.name)
             if kind == "PROGRAMS" and place.is_relative_to("lib"):
                 yield kind, place, top
-            if not place.is_relative_to(share):
+            if not place.is_relative_to(share_path):
                 continue
-            place = place.relative_to(share)
+            place = place.relative_to(share_path)
             if folder / place == top:
                 continue
             for file in sorted(top.rglob("*")) if kind == "DIRECTORY" else [top]:
@@ -172,14 +172,14 @@ def _modules_of_cmake(text: str) -> list[str]:
     ]
 
 
-def _moved(folder: Path, share: str, data_files: Any) -> Iterator[tuple[str, Path]]:
+def _moved(folder: Path, share_path: str, data_files: Any) -> Iterator[tuple[str, Path]]:
     """Yield (installed path, source file) for each file that setup.py installs under a new path.
 
     The installed path is relative to the share directory; in `folder` the file has another path.
 
     Args:
         folder: Source folder of the package.
-        share: Path of the package's share directory, such as "share/turtles".
+        share_path: Path of the package's share directory, such as "share/turtles".
         data_files: Value of `data_files` in setup.py.
     """
     for entry in data_files if isinstance(data_files, list) else ():
@@ -189,8 +189,8 @@ def _moved(folder: Path, share: str, data_files: Any) -> Iterator[tuple[str, Pat
         if not isinstance(target, str):
             continue
         below = target.strip("/")
-        if f"{below}/".startswith(f"{share}/"):
-            below = below[len(share) :].strip("/")
+        if f"{below}/".startswith(f"{share_path}/"):
+            below = below[len(share_path) :].strip("/")
         elif not below.startswith("lib/"):  # the prefix is the source folder here
             continue
         for file in files:

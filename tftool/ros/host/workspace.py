@@ -43,19 +43,19 @@ class ShareFolder:
             if not target.exists():
                 _link(file, target)
 
-    def _link(self, source: Path, below: str, parents: set[str]) -> None:
+    def _link(self, source: Path, subfolder: str, parents: set[str]) -> None:
         """Link the entries of one source folder, except hidden entries and __pycache__.
 
         Args:
             source: Source folder of the package.
-            below: Path, relative to `source`, of the folder whose entries are linked.
+            subfolder: Path, relative to `source`, of the folder whose entries are linked.
             parents: Paths, relative to `source`, of folders to leave out. These are real
                 folders, not links, because files are installed into them.
         """
-        (self.path / below).mkdir(parents=True, exist_ok=True)
-        there = source / below
+        (self.path / subfolder).mkdir(parents=True, exist_ok=True)
+        there = source / subfolder
         for one in there.iterdir() if there.is_dir() else ():
-            place = str(PurePosixPath(below, one.name))
+            place = str(PurePosixPath(subfolder, one.name))
             if not (one.name.startswith(".") or one.name == "__pycache__" or place in parents):
                 _link(one, self.path / place)
 

@@ -145,13 +145,13 @@ class Startable(Action):
             context.launch.warn(f"{what} {verb} no effect here")
 
 
-def seconds_of(context: LaunchContext, value: Any, what: str) -> float:
+def seconds_of(context: LaunchContext, value: Any, duration_name: str) -> float:
     """Return the duration in a launch file, in seconds.
 
     Args:
         context: State of the launch.
         value: Number, text or substitutions.
-        what: Name of the duration, for the error text.
+        duration_name: Name of the duration, for the error text.
 
     Raises:
         UsageError: If the value is not a number of seconds.
@@ -162,7 +162,7 @@ def seconds_of(context: LaunchContext, value: Any, what: str) -> float:
     except ValueError:
         found = -1.0
     if not 0.0 <= found <= LONGEST:
-        raise UsageError(f"{what} must be seconds from 0 to {LONGEST:g}, not '{text}'")
+        raise UsageError(f"{duration_name} must be seconds from 0 to {LONGEST:g}, not '{text}'")
     return found
 
 

@@ -55,7 +55,7 @@ class Subscriber(SimpleFilter):
         return getattr(self.sub, key)
 
 
-def _stamp(msg: Any, allow_headerless: bool, who: str) -> Time | None:
+def _stamp(msg: Any, allow_headerless: bool, logger_name: str) -> Time | None:
     """Return the stamp of a message.
 
     For a message without a header, return the present time, or log a warning and return None.
@@ -63,14 +63,14 @@ def _stamp(msg: Any, allow_headerless: bool, who: str) -> Time | None:
     Args:
         msg: The message.
         allow_headerless: Whether to return the present time for a message without a header.
-        who: Name of the logger for the warning.
+        logger_name: Name of the logger for the warning.
     """
     if hasattr(msg, "header") and hasattr(msg.header, "stamp"):
         stamp = msg.header.stamp
         return stamp if isinstance(stamp, Time) else Time.from_msg(stamp)
     if allow_headerless:
         return ROSClock().now()
-    get_logger(who).warning(
+    get_logger(logger_name).warning(
         f"{type(msg).__name__} has no header with a stamp, so the message is ignored: "
         "allow_headerless=True uses the time of its arrival instead"
     )
