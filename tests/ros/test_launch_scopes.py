@@ -55,7 +55,7 @@ def test_whole_numbers_beside_others_become_floats_and_files_become_paths(tmp_pa
 @pytest.mark.parametrize(
     ("given", "told"),
     [
-        ({5: "x"}, "expected a text, a substitution or a list of both, not 5"),
+        ({5: "x"}, "expected a text, a substitution or a list of these, not 5"),
         ({"a": {1, 2}}, "{1, 2} cannot be a parameter's value"),
         ({"a": [1, [2]]}, r"not \[2\]"),
         ({"a": [True, 2]}, "Expected a non-empty sequence of bool, int, float or str alone"),

@@ -138,7 +138,7 @@ class _StandInLoader(Loader):
 
 
 def load(imported: import_table.ImportedName) -> Any:
-    """Return the object of an import-table entry; import the object's module if needed."""
+    """Import and return the object of tftool that `imported` names."""
     package, _, kind = imported.module.partition("/")
     if kind:
         name, _, part = imported.name.partition("_")

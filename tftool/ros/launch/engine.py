@@ -270,7 +270,7 @@ class Launch(Node):
         details = getattr(action, "process_details", None) or {"name": label}
         return {"action": action, **details}
 
-    def _note_start(self, action: Any, label: str, words: Sequence[str], **details: Any) -> None:
+    def _report_start(self, action: Any, label: str, words: Sequence[str], **details: Any) -> None:
         """Log that a process has started, and emit a `ProcessStarted` event."""
         action.process_details = {"name": label, "cmd": list(words), **details}
         shown = f": {shlex.join(words)}" if details else ""  # not for nodes
@@ -417,7 +417,7 @@ class Launch(Node):
                 self.labels[node.name] = label
                 # The program runs as long as the world, which ends with the launch.
                 self._running[label] = partial(self._ended, action, label, 0, "")
-            self._note_start(action, label, [executable.name, *executable.arguments])
+            self._report_start(action, label, [executable.name, *executable.arguments])
 
         self._start(label, start, respawn)
 
@@ -440,7 +440,7 @@ class Launch(Node):
 
         def start() -> None:
             env, cwd = dict(command.environment), command.cwd
-            self._note_start(action, label, command.words, cwd=cwd, env=env)
+            self._report_start(action, label, command.words, cwd=cwd, env=env)
             self._start_task(self._watch(action, label, command), self._watches)
 
         self._start(label, start, respawn)
@@ -488,7 +488,7 @@ class Launch(Node):
                 on_exit=partial(self._program_ended, action, label),
             )
             self._running[label] = partial(self._remove, action, label, started)
-            self._note_start(action, label, argv, cwd=None)
+            self._report_start(action, label, argv, cwd=None)
 
         self._start(label, start, respawn)
         return label

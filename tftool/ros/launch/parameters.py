@@ -336,7 +336,7 @@ def _parts_of(value: Any) -> list[Substitution]:
         return normalize_to_list_of_substitutions(value)
     if isinstance(value, Path):
         return normalize_to_list_of_substitutions(str(value))
-    raise TypeError(f"expected a text, a substitution or a list of both, not {value!r}")
+    raise TypeError(f"expected a text, a substitution or a list of these, not {value!r}")
 
 
 def _is_text(value: Any) -> bool:

@@ -23,7 +23,7 @@ def normalize_to_list_of_substitutions(subs: Any) -> list[Substitution]:
     if isinstance(subs, Substitution):
         return [subs]
     if not isinstance(subs, Iterable):
-        raise TypeError(f"expected a text, a substitution or a list of both, not {subs!r}")
+        raise TypeError(f"expected a text, a substitution or a list of these, not {subs!r}")
     return [_one(sub) for sub in subs]
 
 

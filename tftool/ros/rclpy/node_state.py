@@ -135,7 +135,7 @@ class NodeState:
         return entity
 
     def add(self, make: Callable[..., T], *args: Any) -> T:
-        """Call `make(*args)`, and add the resulting entity to the node.
+        """Call `make(*args)` and add the result, such as a timer, to the node.
 
         Call this in the event loop's thread.
         """

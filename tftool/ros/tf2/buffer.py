@@ -538,7 +538,7 @@ class Buffer(BufferCore, BufferInterface):
     # Lookups that return futures
 
     def wait_for_transform_async(self, *args: Any, **kwargs: Any) -> Future:
-        """Return a future of the transform, which completes when the transform is available."""
+        """Return a future that completes with the transform as soon as the lookup succeeds."""
         return self.promise(lookup_request(*args, **kwargs))
 
     def wait_for_transform_full_async(self, *args: Any, **kwargs: Any) -> Future:
@@ -546,7 +546,7 @@ class Buffer(BufferCore, BufferInterface):
         return self.promise(full_request(*args, **kwargs))
 
     def promise(self, request: LookupRequest) -> Future:
-        """Return a future of the transform; it completes when the transform is available."""
+        """Return a future that completes with the transform as soon as the lookup succeeds."""
         future = Future(executor=self._program.executor)
         self.hints.record_wait()
 
