@@ -129,7 +129,7 @@ def test_show_args_prints_what_a_file_takes(capsys):
         (
             ["run", "pkg_tf"],
             2,
-            "no executable of package 'pkg_tf' is named: add one. (dynamic_carrot",
+            "write the name of an executable after package 'pkg_tf'. (dynamic_carrot",
         ),
         (["run", "pkg_tff", "x"], 2, "did you mean 'pkg_tf'?"),
         (["run", "pkg_tf", "turtle_folowing"], 2, "did you mean 'turtle_following'?"),
@@ -159,7 +159,7 @@ def test_show_args_prints_what_a_file_takes(capsys):
         (
             ["run", *SIMULATED, "pkg_tf"],
             2,
-            "no executable of package 'pkg_tf' is named: add one. (",
+            "write the name of an executable after package 'pkg_tf'. (",
         ),
         (["run", *SIMULATED, "."], 2, "'.' is a folder: give a node's file, or PACKAGE EXECUTABLE"),
         (["launch", "nothing", "x"], 2, "there is no package 'nothing' below"),
@@ -472,7 +472,7 @@ def test_the_first_signal_ends_an_endless_loop_on_simulated_time_too(tmp_path, n
     ("words", "status", "told"),
     [
         (["nope.py"], 3, "cannot read 'nope.py'"),
-        (["pkg_tf"], 2, "no executable of package 'pkg_tf' is named: add one."),
+        (["pkg_tf"], 2, "write the name of an executable after package 'pkg_tf'."),
         (["pkg_tf", "rotate", "--ros-args", "-p", "a=5"], 2, "a=5"),
         (["pkg_tf/pkg_tf/turtle_following.py", "--ros-args", "-p", "a=5"], 2, "a=5"),
     ],

@@ -76,7 +76,7 @@ def find_program(workspace: Workspace, target: str, further_words: Sequence[str]
         known = ", ".join(sorted(package.scripts)) if package is not None else ""
         hint = f" ({known})" if known else ""
         raise UsageError(
-            f"no executable of package '{target}' is named: add one.{hint} To run a file, give "
+            f"write the name of an executable after package '{target}'.{hint} To run a file, give "
             "its path"
         )
     found = executables.find(workspace, target, further_words[0])
