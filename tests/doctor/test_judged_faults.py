@@ -4,6 +4,7 @@ import math
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from tests.doctor.judged import found, ids, turned
 from tests.doctor.robots import NO_TURN, START, Robot, drives, robot, stands
@@ -692,3 +693,89 @@ def test_two_values_of_a_static_that_arrive_together_are_kept_by_arrival():
         made.static("base_link", "camera")
         made.static("base_link", "camera", (0.2, 0.0, 0.2, *NO_TURN), at=apart)
         assert consequence in found(made, "static-changed").consequence
+
+
+def test_a_localiser_that_stands_still_cancels_no_odometry():
+    for moves, told in ((True, ["odometry-cancelled"]), (False, [])):
+        made = robot()
+        made.moving("map", "odom", 10.0, lambda t, m=moves: (-0.5 * t * m, 0.0, 0.0, *NO_TURN))
+        assert [one for one in ids(made) if one == "odometry-cancelled"] == told
+
+
+def test_the_distance_of_two_sources_of_odometry_is_no_way_that_is_cancelled():
+    made = robot(odometry=False, scans=False)
+    for node, x in (("/camera", 0.0), ("/filter", 50.0)):
+        made.moving("odom", "base_link", 20.0, lambda _t, x=x: (x, 0.0, 0.0, *NO_TURN), node=node)
+    made.moving("map", "odom", 20.0, lambda t: (-50.0 * (t % 0.1 > 0.04), 0.0, 0.0, *NO_TURN))
+    assert "odometry-cancelled" not in ids(made, notes=True)
+
+
+def corrections(ahead: float) -> Robot:
+    """Return a robot whose localiser, with a clock that is ahead, turns odom four times by 10°.
+
+    The robot drives along x for 4 s at 3 m/s, and back to the origin of odom.
+    """
+    made = robot(odometry=False)
+    made.moving(
+        "odom", "base_link", 50.0, lambda t: (12.0 - abs(12.0 - 3.0 * t), 0.0, 0.0, *NO_TURN)
+    )
+    for tick in range(80):
+        pose = (0.0, 0.0, 0.0, *turned(0.1745 * min(tick // 19, 4)))
+        made.sent("map", "odom", 0.1 * tick + ahead, pose, latency=0.01 - ahead)
+    return made
+
+
+def test_steps_of_a_localiser_are_measured_where_the_robot_is_when_they_arrive():
+    for ahead in (0.0, 3.0):
+        finding = found(corrections(ahead), "teleport")
+        # 10° are 0.1745 rad; at 3.8 s the robot is 11.4 m from the origin.
+        assert finding.facts["jump"] == pytest.approx(0.1745 * 11.4, abs=0.05)
+        assert finding.count == 3
+
+
+def test_a_change_between_two_clocks_is_no_step_of_a_localiser():
+    made = robot()
+    for tick in range(20):
+        for ahead, x in ((0.0, 0.0), (-6e5, 9.0)):
+            pose = (x, 0.0, 0.0, *NO_TURN)
+            made.sent("map", "odom", 0.4 * tick + ahead, pose, latency=0.01 - ahead)
+    assert "teleport" not in ids(made, notes=True)
+
+
+def test_a_kind_that_changes_once_is_a_warning_and_ros_1_keeps_the_first():
+    for kind, so in (
+        ("rosbag2", "clears the history of laser"),
+        ("ROS 1 bag", "keeps the kind that comes first"),
+    ):
+        made = robot(laser=False)
+        made.kind = kind
+        made.static("base_link", "laser", (0.1, 0.0, 0.2, *NO_TURN), at=-1.0)
+        made.moving("base_link", "laser", 10.0, lambda _t: (0.1, 0.0, 0.5, *NO_TURN))
+        finding = found(made, "static-and-dynamic")
+        assert finding.severity is Severity.WARNING
+        assert so in finding.consequence
+        assert "with poses 0.30 m apart" in finding.evidence[0]
+
+
+def test_of_two_sources_whose_stamps_are_hours_apart_tf2_keeps_one():
+    made = robot(odometry=False)
+    for node, x, behind in (("/new", 0.0, 0.0), ("/old", 2.0, 20_000.0)):
+        pose = (x, 0.0, 0.0, *NO_TURN)
+        for tick in range(160):
+            at = 0.05 * tick - behind
+            made.sent("odom", "base_link", at, pose, latency=0.01 + behind, node=node)
+    finding = found(made, "publisher-conflict")
+    assert finding.consequence == (
+        "tf2 keeps the samples of /new, and refuses the samples of /old as too old"
+    )
+
+
+def test_limbs_that_a_tracker_of_people_loses_are_no_jumps():
+    for count, told in ((5, False), (2, True)):
+        made = Robot()
+        for number in range(count):
+            for tick in range(240):
+                far = 0.6 if number == 0 and tick in (100, 101, 102) else 0.0
+                pose = (1.0 + 0.001 * tick + far, 0.3 * number, 2.0, *NO_TURN)
+                made.sent("camera_depth_frame", f"limb_{number}", tick / 30.0, pose, node="/people")
+        assert ("teleport" in ids(made, notes=True)) is told

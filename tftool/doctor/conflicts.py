@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from tftool.base.stamps import NANOSECONDS
+from tftool.base.stamps import CACHE_TIME, NANOSECONDS
 from tftool.doctor.findings import Confidence, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_stream import Mask, Places, Track, last_part
@@ -380,6 +380,10 @@ def _conflict(
         if known and _is_still(track, places)
     ]
     still = still if len(still) == 1 else []
+    so = "the frame jumps back and forth, and so do all frames below"
+    if abs(late[0] - late[1]) > CACHE_TIME:
+        kept, refused = names if late[0] < late[1] else names[::-1]
+        so = f"tf2 keeps the samples of {kept}, and refuses the samples of {refused} as too old"
     return Hit(
         edges=(track.edge,),
         publishers=names if known else track.nodes,
@@ -403,6 +407,7 @@ def _conflict(
             "most_turned": float(np.max(turned)),
             "seen": seen,
             "two": 0 if is_one else 1,
+            "so": so,
         },
         fixes=(fix,),
         alone=True,

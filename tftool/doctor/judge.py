@@ -19,6 +19,7 @@ from tftool.doctor import delay_checks as delays
 from tftool.doctor import description_checks as description
 from tftool.doctor import gap_checks as gaps
 from tftool.doctor import heard_names
+from tftool.doctor import jump_checks as jumps
 from tftool.doctor import lap_checks as laps
 from tftool.doctor import mount_checks as mounts
 from tftool.doctor import name_checks as names
@@ -28,6 +29,7 @@ from tftool.doctor import pose_checks as poses
 from tftool.doctor import publisher_checks as publishers
 from tftool.doctor import shape_checks as shape
 from tftool.doctor import stamp_checks as stamps
+from tftool.doctor import static_checks as statics
 from tftool.doctor import value_checks as values
 from tftool.doctor.check import NEEDS, Check
 from tftool.doctor.evidence import Evidence, described_by, evidence_of, evidence_of_log
@@ -43,8 +45,8 @@ if TYPE_CHECKING:
 CHECKS: Mapping[str, Check] = {
     check.id: check
     for room in (
-        *(publishers, shape, heard_names, names, clocks, laps, stamps, delays),
-        *(gaps, outages, coverage, values, poses, odometry, mounts, description),
+        *(publishers, statics, shape, heard_names, names, clocks, laps, stamps, delays),
+        *(gaps, outages, coverage, values, jumps, poses, odometry, mounts, description),
     )
     for check in room.check.checks
 }

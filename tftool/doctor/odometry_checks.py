@@ -285,9 +285,12 @@ _STANDS = 8
 def odometry_cancelled(model: Model, limits: Limits) -> Iterator[Hit]:
     """A localiser cancels the motion that the odometry measures."""
     for track in model.dynamic:
-        for below in model.dynamic if track.is_localisation and len(track.by_stamp) else ():
+        # A constant transform from map to odom cancels nothing.
+        for below in model.dynamic if track.is_localisation and track.moves else ():
             if below.parent != track.child or last_part(below.child) not in BASES:
                 continue
+            if len(below.publishers) > 1:
+                continue  # the distance between two sources is no motion
             newest = np.searchsorted(track.sorted_stamps, below.sorted_stamps, side="right") - 1
             known = newest >= 0
             rows = track.by_stamp[newest[known]]

@@ -1,13 +1,13 @@
-"""Checks of publishers: several parents or publishers of a frame, moving static transforms."""
+"""Checks of publishers: several parents or publishers of a frame, and empty messages."""
 
-from collections import Counter, defaultdict
+from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from tftool.base.stamps import NANOSECONDS
-from tftool.doctor.check import checks_of, hit_of, threads
+from tftool.doctor.check import checks_of, threads
 from tftool.doctor.conflicts import (
     fed_twice,
     find_publishers,
@@ -19,10 +19,9 @@ from tftool.doctor.conflicts import (
     values_at_one_stamp,
 )
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
-from tftool.doctor.missing_joins import ends_at_the_root
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.pose_checks import with_placeholders
-from tftool.doctor.stamp_stream import JOINT_STATES, Track, family, rate
+from tftool.doctor.stamp_stream import JOINT_STATES, Track, rate
 
 check = checks_of(Area.PUBLISHERS)
 
@@ -54,11 +53,11 @@ check = checks_of(Area.PUBLISHERS)
 )
 def two_parents(model: Model, limits: Limits) -> Iterator[Hit]:
     """A frame changes between two parents."""
-    for child, tracks in _by_child(model.dynamic).items():
+    for child, tracks in by_child(model.dynamic).items():
         switches, stay, first = _switching(tracks)
         if switches > limits["switches"] and stay < limits["stay"]:
             yield _fight(model, child, tracks, switches, first)
-    for child, tracks in _by_child(model.statics).items():
+    for child, tracks in by_child(model.statics).items():
         yield _fight(model, child, tracks, len(tracks) - 1, int(tracks[1].logs[0]))
 
 
@@ -107,7 +106,7 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
     headline="{named} {many:has|have} two {two:sources with |}different values{seen}",
     detail="{edge}: {first} and {second}, {told}, {apart:m} and {turned:deg} apart (median), "
     "{worst:m} and {most_turned:deg} at most",
-    consequence="{named} {many:jumps|jump} back and forth, and so do all frames below",
+    consequence="{so}",
     causes=(
         "joint_state_publisher sends zeros beside the real source of joint states",
         "a controller or simulator plug-in and a filter publish the odometry",
@@ -220,241 +219,6 @@ def _has_one_source(model: Model) -> bool:
 
 
 @check(
-    "static-and-dynamic",
-    Severity.ERROR,
-    rule="a frame is the child of a static transform and of a moving transform. A warning if both "
-    "transforms have the same parent and the kind changes once",
-    headline="{child} is sent on /tf and on /tf_static",
-    detail="moving: {moving}; static: {static}; the kind changes {turns:times}, at most "
-    "{history:span} of history are kept",
-    consequence="each change of kind clears the history of {child}: lookups in the past fail",
-    causes=(
-        "SLAM beside the robot description, with other parents",
-        "an old tf static publisher beside a new one",
-        "use_tf_static switched between versions",
-    ),
-    links=threads("TixiaoShan/LIO-SAM#521"),
-)
-def static_and_dynamic(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A frame is sent on /tf and on /tf_static, and its history is cleared each time."""
-    moving = _by_child(model.dynamic, least=1)
-    for child, statics in _by_child(model.statics, least=1).items():
-        if child not in moving:
-            continue
-        tracks = [*moving[child], *statics]
-        kinds = np.concatenate([np.full(len(t.logs), t.static) for t in tracks])
-        logs = np.concatenate([t.logs for t in tracks])
-        order = np.argsort(logs, kind="stable")
-        turns = np.flatnonzero(np.diff(kinds[order].astype(np.int8)))
-        bounds = np.concatenate((logs[order][:1], logs[order][turns + 1], logs[order][-1:]))
-        is_one_edge = len({track.edge for track in tracks}) == 1
-        fix = ends_at_the_root(model, moving[child], statics)
-        if fix is None:
-            fix = find_publishers(tracks)
-        if is_one_edge and any(track.moves for track in moving[child]):
-            fix = Fix(f"{child} moves: the static one is wrong; {fix.text}")
-        yield Hit(
-            edges=tuple(dict.fromkeys(track.edge for track in tracks)),
-            frames=(child,),
-            publishers=tuple(sorted({node for track in tracks for node in track.nodes})),
-            since=int(bounds[1]) if len(turns) else int(bounds[0]),
-            count=len(turns),
-            facts={
-                "child": child,
-                "moving": [f"{t.name} on {', '.join(t.topics)}" for t in moving[child]],
-                "static": [f"{t.name} on {', '.join(t.topics)}" for t in statics],
-                "turns": len(turns),
-                "history": int(np.diff(bounds).max()) if len(bounds) > 1 else 0,
-            },
-            severity=Severity.WARNING if is_one_edge and len(turns) < 2 else None,
-            fixes=(fix,),
-            alone=True,
-        )
-
-
-@check(
-    "dynamic-on-static",
-    Severity.WARNING,
-    rule="a static has {values:g} different values or more (apart by {metres:g} m or "
-    "{radians:g} rad)",
-    headline="{where} {concerned:moves, and is|move, and are} published as static",
-    detail="{edge}: {values} values, up to {moved:m} and {turned:deg} apart",
-    consequence="statics have no history: every lookup in the past returns the newest value, "
-    "without an error",
-    fixes=(Fix("find its publisher: `{publishers} /tf_static`"),),
-    causes=("a calibration or a detector publishes its result with a static broadcaster",),
-    limits={"values": 4, "metres": 1e-6, "radians": 1e-4},
-    why="a recalibration changes the value of a static once or twice",
-)
-def dynamic_on_static(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A moving frame is published as static."""
-    for values, hit in _values_of_statics(model, limits):
-        if values >= limits["values"]:
-            yield hit
-
-
-@check(
-    "static-changed",
-    Severity.WARNING,
-    rule="a static has 2 to {values:g} different values (apart by {metres:g} m or {radians:g} rad)",
-    headline="{where} {concerned:was|were} published again with another value",
-    detail="{edge}: {values} values, {moved:m} and {turned:deg} apart: {shown}",
-    consequence="{so}",
-    fixes=(Fix("find its publishers: `{publishers} /tf_static` lists them"),),
-    causes=(
-        "two launch files",
-        "a recalibration while recording",
-    ),
-    limits={"values": 3, "metres": 5e-4, "radians": 1e-3},
-)
-def static_changed(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A static transform was published again with another value."""
-    for values, hit in _values_of_statics(model, limits):
-        if 2 <= values <= limits["values"]:
-            yield hit
-
-
-def _values_of_statics(model: Model, limits: Limits) -> Iterator[tuple[int, Hit]]:
-    for track in model.statics:
-        places = np.flatnonzero(track.usable)
-        if len(places) < 2:
-            continue
-        # Poses that differ by less than the limit count as one.
-        kept = [int(places[0])]
-        changes: list[int] = []
-        last = kept[0]
-        # A node that repeats a static sends mostly the same numbers, which need no comparison.
-        poses = np.hstack((track.translations, track.rotations))[places]
-        for place in places[1:][(poses[1:] != poses[:-1]).any(axis=1)].tolist():
-            if _same(track, place, last, limits):
-                continue
-            changes.append(place)
-            last = place
-            if len(kept) < 50 and not any(_same(track, place, one, limits) for one in kept):
-                kept.append(place)
-            if len(changes) > 1000:
-                break
-        if not changes:
-            continue
-        first = np.full(len(kept), kept[0])
-        is_sudden = track.logs[changes[-1]] - track.logs[kept[0]] < NANOSECONDS
-        yield (
-            len(kept),
-            hit_of(
-                track,
-                {
-                    "values": len(kept),
-                    "moved": float(track.apart(np.array(kept), first).max()),
-                    "turned": float(track.turned(np.array(kept), first).max()),
-                    "shown": ", then ".join(
-                        " ".join(f"{n:.4g}" for n in track.translations[one]) for one in kept[:3]
-                    ),
-                    "so": "each listener keeps the value that reaches it last"
-                    if is_sudden
-                    else "everything placed with the old value moves when the new one arrives, "
-                    "also in the past",
-                },
-                since=int(track.logs[changes[0]]),
-                until=int(track.logs[changes[-1]]),
-                count=len(changes),
-            ),
-        )
-
-
-def _same(track: Track, one: int, other: int, limits: Limits) -> bool:
-    some, others = np.array([one]), np.array([other])
-    moved = float(track.apart(some, others)[0])
-    turned = float(track.turned(some, others)[0])
-    return moved <= limits["metres"] and turned <= limits["radians"]
-
-
-@check(
-    "static-on-tf",
-    Severity.NOTE,
-    rule="{samples:g} samples or more of a moving transform, over {seconds:g} s or more, are all "
-    "equal while the parent frame moves. Not reported if joint states, the robot description, "
-    "odometry, another transform of the same messages, a moving frame of similar name, or a "
-    "fixed joint of the robot below the frame shows that the frame can move",
-    headline="{where} never {concerned:changes and is|change and are} sent on /tf",
-    detail="{edge}: {rate:.3g} Hz, for {lasts:span}",
-    consequence="if the transform is a mount, lookups wait for its next sample, unless the stamps "
-    "are ahead",
-    causes=("the static publisher of the old tf package",),
-    links=threads("orbbec/ros_astra_camera#89"),
-    limits={"samples": 20, "seconds": 60.0},
-    needs=("recording",),
-    why="a constant sent at 10 Hz on /tf makes every lookup wait for up to 100 ms, unless its "
-    "stamps are ahead. A joint at rest looks like a constant, and a short recording cannot "
-    "distinguish the two",
-    because_of=(("child", "static-and-dynamic"),),
-)
-def static_on_tf(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A transform on /tf is constant and could be static."""
-    moving = [track for track in model.dynamic if track.moves]
-    if not moving:
-        return
-    carried = _by_child(model.dynamic)
-    families = {family(track.child) for track in moving}
-    may_move = [*moving, *_joints_by_statics(model)]
-    for track in model.dynamic:
-        if track.is_localisation or track.moves or len(track.by_stamp) < max(limits["samples"], 1):
-            continue
-        if track.sorted_stamps[-1] - track.sorted_stamps[0] < limits["seconds"] * NANOSECONDS:
-            continue
-        if track.child in carried or family(track.child) in families:
-            continue  # it changes its parent, or similar frames move
-        if any(np.isin(track.messages, other.messages).any() for other in may_move):
-            continue  # it is sent in the same messages as moving frames
-        if _could_move(model, track):
-            continue
-        if not any(above.moves for above in model.above(track.parent)):
-            continue  # it may have stood still because the robot did
-        yield hit_of(
-            track,
-            {
-                "rate": rate(track),
-                "period": track.period,
-                "lasts": int(track.sorted_stamps[-1] - track.sorted_stamps[0]),
-            },
-            since=None,
-            confidence=Confidence.POSSIBLE,
-        )
-
-
-def _could_move(model: Model, track: Track) -> bool:
-    """Whether the description, Odometry or joint states show that an edge can move."""
-    joint = model.joint_above.get(track.child)
-    if joint is not None:
-        return joint.moves
-    odometry = model.evidence.odometry
-    if odometry is not None and track.edge in {(e.parent, e.child) for e in odometry.edges}:
-        return True
-    if any(name in track.child for name in model.evidence.joints or ()):
-        return True
-    # robot_state_publisher uses the stamps of joint states for the frames of movable joints.
-    return any(
-        bool(np.isin(track.stamps, headers.stamps).mean() > 0.5)
-        for headers in model.evidence.headers.values()
-        if headers.type == JOINT_STATES
-    )
-
-
-def _joints_by_statics(model: Model) -> list[Track]:
-    """Return the moving edges that are joints of a robot, judged by the static messages.
-
-    robot_state_publisher sends all fixed joints in one static message. So the parents in such a
-    message are links of the robot, and a moving edge to such a parent is a joint.
-    """
-    counts = Counter(number for one in model.statics for number in one.messages.tolist())
-    carriers = {
-        one.parent
-        for one in model.statics
-        if any(counts[number] > 1 for number in one.messages.tolist())
-    }
-    return [track for track in model.dynamic if track.child in carriers]
-
-
-@check(
     "parent-switch",
     Severity.NOTE,
     rule="a frame changes its parent at most {switches:g} times, or keeps each for {stay:g} "
@@ -471,7 +235,7 @@ def _joints_by_statics(model: Model) -> list[Track]:
 )
 def parent_switch(model: Model, limits: Limits) -> Iterator[Hit]:
     """A frame got a new parent once."""
-    for child, tracks in _by_child(model.dynamic).items():
+    for child, tracks in by_child(model.dynamic).items():
         switches, stay, first = _switching(tracks)
         if 0 < switches <= limits["switches"] or stay >= limits["stay"]:
             yield Hit(
@@ -487,7 +251,7 @@ def parent_switch(model: Model, limits: Limits) -> Iterator[Hit]:
             )
 
 
-def _by_child(tracks: Sequence[Track], least: int = 2) -> dict[str, list[Track]]:
+def by_child(tracks: Sequence[Track], least: int = 2) -> dict[str, list[Track]]:
     """Return the edges to each child frame with at least `least` parents, by the child's name."""
     grouped: dict[str, list[Track]] = defaultdict(list)
     for track in tracks:

@@ -1,0 +1,330 @@
+"""Check of jumps: a frame moves faster than it can."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, Stamp, seconds
+from tftool.doctor.check import REP105, checks_of, hit_of, threads
+from tftool.doctor.findings import Area, Edge, Fix, Hit, Severity
+from tftool.doctor.gap_checks import is_detection
+from tftool.doctor.missing_joins import is_world, quoted
+from tftool.doctor.model import Limits, Model
+from tftool.doctor.stamp_stream import BASES, Places, Track, last_part
+from tftool.doctor.wording import metres, moment, several, span
+from tftool.geometry.rigid_arrays import Floats, rotate, unit
+from tftool.recordings.contract import Stamps, percentile
+
+check = checks_of(Area.VALUES)
+
+
+@check(
+    "teleport",
+    Severity.WARNING,
+    rule="a step is above {metres:g} m at more than {speed:g} m/s (or above {radians:g} rad at "
+    "more than {turning:g} rad/s), and its speed is {times:g} times the 95 % quantile of all "
+    "speeds. Such steps are at most a share of {share:g} of all steps ({triggered:g} if each "
+    "step comes within 50 ms after a position message) or at most {few:g} steps, among {samples:g} "
+    "samples or more of one publisher. A note for a part of a robot if no sensor message is "
+    "in its frame. A localiser is reported for {corrections:g} steps or more that move the "
+    "robot by {corrected:g} m, not counting the step to an initial pose. An object that a "
+    "camera detects is reported for {corrections:g} steps or more of {detected:g} m and 2 m/s "
+    "within 1 s",
+    headline="{named}",
+    detail="{edge}: {jump:m} and {turn:deg} at {at:moment}, {count:times}{others}{usual}{after}",
+    consequence="things placed before and after the jump do not fit together{also}",
+    causes=(
+        "encoder overflow",
+        "a reset of the filter",
+        "wheel slip",
+        "a satellite receiver in the filter of the odometry",
+        "a localiser that is lost",
+    ),
+    links=(
+        *threads("ROBOTIS-GIT/turtlebot3#926"),
+        REP105,
+    ),
+    limits={
+        "metres": 0.25,
+        "speed": 5.0,
+        "radians": 0.5,
+        "turning": 20.0,
+        "times": 8.0,
+        "share": 0.02,
+        "triggered": 0.05,
+        "few": 3,
+        "samples": 10,
+        "corrections": 3,
+        "corrected": 0.5,
+        "detected": 1.0,
+    },
+    why="steady motion has a usual speed, which a jump exceeds. More jumps than the rule allows "
+    "are noise, or come from two publishers",
+    because_of=(
+        ("anything", "time-jump-back"),
+        ("mixed", "publisher-conflict two-parents"),
+        ("edge", "placeholder-pose frozen-pose outlier"),
+    ),
+)
+def teleport(model: Model, limits: Limits) -> Iterator[Hit]:
+    """A frame jumps faster than it can move."""
+    is_named = model.has_named_publishers
+    for track in model.dynamic:
+        if track.is_localisation:
+            corrected = _corrections(model, track, limits)
+            if corrected is not None:
+                yield corrected
+            continue
+        senders = track.senders[track.by_stamp] if is_named and len(track.nodes) > 1 else None
+        for number in (0,) if senders is None else np.unique(senders).tolist():
+            places = track.by_stamp if senders is None else track.by_stamp[senders == number]
+            hit = _jump(model, track, places, limits) if len(places) >= limits["samples"] else None
+            if hit is not None and _is_of_a_person(model, track):
+                hit = None
+            hit = hit or _poor_detections(model, track, limits)
+            if hit is not None:
+                yield hit
+
+
+def _jump(model: Model, track: Track, places: Places, limits: Limits) -> Hit | None:
+    """Return a hit about jumps in one publisher's samples of an edge; None without jumps.
+
+    Args:
+        model: Model of the evidence.
+        track: The edge.
+        places: Indices of the publisher's samples, sorted by stamp, shape (n,).
+        limits: Thresholds of `teleport`.
+    """
+    some, others = places[:-1], places[1:]
+    is_whole = len(places) == len(track.by_stamp)
+    apart = track.strides if is_whole else track.apart(some, others)
+    spins = track.has_turns(some, others, limits["radians"])
+    if not spins and not (apart > limits["metres"]).any():
+        return None
+    stamps = track.sorted_stamps if is_whole else track.stamps[places]
+    gaps = np.diff(stamps) / NANOSECONDS
+    later = gaps > 0.0
+    gaps = np.where(later, gaps, 1.0)
+    turned = track.turned(some, others)
+    moved = _jumps(apart, gaps, limits["metres"], limits["speed"], limits["times"])
+    spun = _jumps(turned, gaps, limits["radians"], limits["turning"], limits["times"])
+    jumps = np.flatnonzero((moved | spun) & later)
+    topic, after = _trigger(model, track.logs[others[jumps]])
+    share = limits["triggered"] if topic else limits["share"]
+    if not len(jumps) or len(jumps) > max(limits["few"], share * len(gaps)):
+        return None
+    worst = int(jumps[np.argmax(apart[jumps])])
+    if not moved[worst]:
+        worst = int(jumps[np.argmax(turned[jumps])])
+    is_odometry = last_part(track.parent).startswith("odom")
+    usual = float(np.median(apart[later] / gaps[later]))
+    far = metres(float(apart[worst])) if moved[worst] else f"{np.degrees(turned[worst]):.3g}°"
+    how = f" within {span(gaps[worst] * NANOSECONDS)}"
+    return hit_of(
+        track,
+        {
+            "jump": float(apart[worst]),
+            "turn": float(turned[worst]),
+            "far": far,
+            "named": f"{track.name} jumps {far}{how}",
+            "within": int(gaps[worst] * NANOSECONDS),
+            "how": how,
+            "at": int(track.stamps[others[worst]]),
+            "others": _others(track, others[jumps], int(others[worst])),
+            "usual": f"; usual {usual:.2g} m/s" if usual else "",
+            "after": f"; each at most {span(after)} after a message of {topic}" if topic else "",
+            "count": len(jumps),
+            "also": "; REP-105 wants this transform continuous" if is_odometry else "",
+            "mixed": is_whole,
+        },
+        since=int(track.logs[others[jumps[0]]]),
+        until=int(track.logs[others[jumps[-1]]]),
+        count=len(jumps),
+        severity=Severity.NOTE if model.is_minor(track) else None,
+        fixes=_look(
+            model, track.edge, int(track.stamps[some[worst]]), int(track.stamps[others[worst]])
+        ),
+    )
+
+
+def _is_of_a_person(model: Model, track: Track) -> bool:
+    """Whether an edge is one of several limbs that a tracker of people sends below its sensor.
+
+    The limbs jump when the tracker finds a person or loses a limb, and nothing is placed on them.
+    """
+    if is_world(track.parent) or last_part(track.parent) in BASES:
+        return False
+    frames = {heard.frame for heard in model.heard}
+    limbs = [
+        one
+        for one in model.dynamic
+        if (one.parent, one.nodes) == (track.parent, track.nodes)
+        and len(model.below(one.child)) == 1
+        and one.child not in frames
+    ]
+    return track in limbs and len(limbs) >= _FEWEST_LIMBS
+
+
+_FEWEST_LIMBS = 4
+"""Minimum number of frames without children, directly below one sensor, that show a person."""
+
+
+def _look(model: Model, edge: Edge, before: Stamp, after: Stamp) -> tuple[Fix, ...]:
+    """Return remedies with the commands that print the pose before a jump and the pose after it."""
+    echo = f"tftool echo {quoted(edge[0])} {quoted(edge[1])} RECORDING --at"
+    # A small number is seconds since the start of the recording, not a stamp.
+    begin = model.epoch if after < SIMULATED_BELOW else 0
+    first, then = (
+        f"{(one - begin) // NANOSECONDS}.{(one - begin) % NANOSECONDS:09}".rstrip("0").rstrip(".")
+        for one in (before, after)
+    )
+    return (
+        Fix("compare the jump with the sensors; before it:", f"{echo} {first}"),
+        Fix("after it:", f"{echo} {then}"),
+    )
+
+
+def _others(track: Track, places: Places, worst: int) -> str:
+    """Return the stamps of all jumps except the worst jump, as a clause of a sentence."""
+    others = [moment(int(track.stamps[place])) for place in places.tolist() if place != worst]
+    return f"; also at {several(others)}" if others else ""
+
+
+def _corrections(model: Model, track: Track, limits: Limits) -> Hit | None:
+    """Return a hit if a localiser corrects the robot's pose again and again; else None.
+
+    A first step that is also the largest step is the initial pose, and does not count.
+    """
+    places = track.by_stamp
+    if len(places) < limits["samples"] or last_part(track.parent).startswith("odom"):
+        return None
+    some, others = places[:-1], places[1:]
+    robot, shown = np.zeros((len(others), 3)), track.edge
+    # A step across a long pause, or from the stamps of one clock to those of another, is none.
+    is_step = np.diff(track.stamps[places]) < model.settings.cache_time
+    for below in model.dynamic:
+        if below.parent == track.child and last_part(below.child) in BASES and len(below.by_stamp):
+            # Not by stamps, which may be on another clock than those of the localiser.
+            following = np.searchsorted(below.logs, track.logs[others])
+            rows = following.clip(1, len(below.logs) - 1)
+            robot = below.translations[rows]
+            pauses = below.logs[rows] - below.logs[rows - 1]
+            is_step &= (following == rows) & (pauses < model.settings.cache_time)
+            shown = track.parent, below.child
+    # A turn of odom moves the robot by its distance from the origin of odom.
+    before, after = (
+        track.translations[one] + rotate(unit(track.rotations[one]), robot)
+        for one in (some, others)
+    )
+    moved = np.linalg.norm(after - before, axis=1)
+    steps = np.flatnonzero((moved > limits["corrected"]) & is_step)
+    if len(steps) and moved[steps[0]] > 0.999 * moved.max():
+        steps = steps[1:]
+    if len(steps) < limits["corrections"]:
+        return None
+    how = f"{limits['corrected']:g} m: its localiser corrects it again and again"
+    also = "; the localiser may be lost"
+    words = how, f", measured at {shown[1]}", also
+    return _repeated_jumps(model, track, steps, moved, words, shown)
+
+
+def _poor_detections(model: Model, track: Track, limits: Limits) -> Hit | None:
+    """Return a hit if a detected object jumps by metres from detection to detection; else None."""
+    if is_world(track.parent) or len(track.by_stamp) < 2 or not is_detection(model, track):
+        return None
+    gaps = np.diff(track.sorted_stamps) / NANOSECONDS
+    steps = np.flatnonzero(
+        (track.strides > limits["detected"]) & (track.strides > 2.0 * gaps) & (gaps < 1.0)
+    )
+    if len(steps) < limits["corrections"]:
+        return None
+    away = np.linalg.norm(track.translations[track.by_stamp], axis=1)
+    after = f"; seen at {away.min():.3g} m to {metres(float(away.max()))}"
+    words = f"{limits['detected']:g} m within 1 s", after, ""
+    return _repeated_jumps(model, track, steps, track.strides, words, track.edge)
+
+
+def _repeated_jumps(
+    model: Model,
+    track: Track,
+    steps: Places,
+    moved: Floats,
+    words: tuple[str, str, str],
+    shown: Edge,
+) -> Hit:
+    """Return a hit about several steps of an edge.
+
+    Args:
+        model: Model of the evidence.
+        track: The edge.
+        steps: Indices of the reported steps in `moved`, shape (m,).
+        moved: Lengths of all steps, sorted by stamp, metres, shape (n,).
+        words: Clauses about the size of the steps, the longest step, and the consequence.
+        shown: Target and source of the lookup that shows the steps.
+    """
+    places = track.by_stamp
+    worst = int(steps[moved[steps].argmax()])
+    far = f"by up to {metres(float(moved[worst]))}"
+    how = f", {len(steps)} times by more than {words[0]}"
+    return hit_of(
+        track,
+        {
+            "jump": float(moved[worst]),
+            "turn": float(track.turned(places[[worst]], places[[worst + 1]])[0]),
+            "far": far,
+            "how": how,
+            "named": f"{track.name} jumps {far}{how}",
+            "at": int(track.stamps[places[worst + 1]]),
+            "others": _others(track, places[steps + 1], int(places[worst + 1])),
+            "usual": "",
+            "after": words[1],
+            "count": len(steps),
+            "also": words[2],
+            "mixed": True,
+        },
+        since=int(track.logs[places[steps[0] + 1]]),
+        until=int(track.logs[places[steps[-1] + 1]]),
+        count=len(steps),
+        fixes=_look(model, shown, *track.stamps[places[[worst, worst + 1]]].tolist()),
+    )
+
+
+_SOON = seconds(0.05)
+"""Maximum time, nanoseconds, from a message to the jump that it triggers."""
+
+
+def _trigger(model: Model, jumps: Stamps) -> tuple[str, int]:
+    """Find the position topic of low rate, such as GPS, whose messages trigger all jumps.
+
+    Args:
+        model: Model of the evidence.
+        jumps: Log times of the jumps, nanoseconds, shape (n,).
+
+    Returns:
+        The topic, empty if there is none, and the longest delay from a message to its jump,
+        nanoseconds.
+    """
+    best = "", _SOON
+    for heard in model.heard:
+        if last_part(heard.type) not in ("NavSatFix", "Odometry") or len(jumps) < 3:
+            continue
+        before = np.searchsorted(heard.logs, jumps, side="right") - 1
+        delays = jumps - heard.logs[before]
+        lasts = int(heard.logs[-1] - heard.logs[0])
+        is_rare = 2 * len(heard.logs) * _SOON < lasts
+        if is_rare and before.min() >= 0 and delays.max() < best[1]:
+            best = heard.topic, int(delays.max())
+    return best
+
+
+def _jumps(
+    steps: "np.ndarray[tuple[int], np.dtype[np.float64]]",
+    gaps: "np.ndarray[tuple[int], np.dtype[np.float64]]",
+    least: float,
+    speed: float,
+    times: float,
+) -> "np.ndarray[tuple[int], np.dtype[np.bool_]]":
+    speeds = steps / gaps
+    limit = max(speed, times * percentile(speeds, 95))
+    found: np.ndarray[tuple[int], np.dtype[np.bool_]] = (steps > least) & (speeds > limit)
+    return found
