@@ -67,7 +67,7 @@ def test_nodes_of_one_name_live_side_by_side(tmp_path):
     file.write_text("launch:\n" + 8 * "- node: {pkg: pkg, exec: same.py}\n")
     done = launch_live(file, tmp_path)
 
-    assert done.failed == []
+    assert done.failed == [], done.lines
     assert done.texts("same") == 8 * ["here"]
     # Each line is logged with the label of its process, whatever the node's name.
     assert all(done.said(f"same.py-{number}").count("here") == 1 for number in range(1, 9))

@@ -46,6 +46,8 @@ def shown(*keys, frames=60, size=(80, 24), news="", framed=False, solids=None, *
         async with app.run_test(size=size) as pilot:
             await pilot.pause()
             app.look_again()
+            # A key may need a panel that only the next refresh shows.
+            await pilot.pause()
             await pilot.press(*keys)
             if news:
                 app.tell(news)
