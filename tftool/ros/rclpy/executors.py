@@ -53,7 +53,7 @@ class Executor:
     def __init__(self, *, context: Context | None = None) -> None:
         self._program = program.current()
         self._context = context or context_of(self._program)
-        self._seats: list[NodeState] = []
+        self._states: list[NodeState] = []
         self._batch: deque[NodeEntity] = deque()
         self._due: Stamp | None = None
         """Time of the next timer that may run, when no entity was ready; None without a timer."""
@@ -82,11 +82,11 @@ class Executor:
     def add_node(self, node: Any) -> bool:
         """Add a node to this executor; return False if the node was already added."""
         state = state_of(node)
-        if state in self._seats:
+        if state in self._states:
             return False
 
         def add() -> None:
-            self._seats.append(state)
+            self._states.append(state)
             state.executor = self
             state.was_served = True
             self.wake()
@@ -99,8 +99,8 @@ class Executor:
         state = state_of(node)
 
         def remove() -> None:
-            if state in self._seats:
-                self._seats.remove(state)
+            if state in self._states:
+                self._states.remove(state)
             if state.executor is self:
                 state.executor = None
             self._batch = deque(one for one in self._batch if one.node_state is not state)
@@ -110,7 +110,7 @@ class Executor:
 
     def get_nodes(self) -> list[Any]:
         """Return the nodes that were added to this executor."""
-        return [state.ros_node for state in self._seats]
+        return [state.ros_node for state in self._states]
 
     def shutdown(self, timeout_sec: float | None = None) -> bool:
         """Shut the executor down and remove all its nodes; always return True."""
@@ -118,7 +118,7 @@ class Executor:
             self._over = True
             self._leave_context()
             self._wake_from_anywhere()
-        for state in list(self._seats):
+        for state in list(self._states):
             self.remove_node(state.ros_node)
         return True
 
@@ -311,7 +311,7 @@ class Executor:
     def _collect(self) -> None:
         """Put the ready entities of all nodes into the batch; each node's timers come first."""
         self._due = None
-        for state in list(self._seats):
+        for state in list(self._states):
             timers = [one for one in state.entities if isinstance(one, Timer)]
             for timer in timers:
                 if self._is_ready(timer):
