@@ -47,7 +47,7 @@ def test_a_joint_without_state_explains_the_links_below_it():
     )
     made.joints = frozenset({"wheel"})
     finding = found(made, "joint-without-state")
-    assert finding.message == "caster has no state: caster_link has no frame"
+    assert finding.message == "caster has no state, so caster_link has no frame"
     assert finding.frames == ("caster_link", "roller_link", "twin_link")
     assert ids(made) == ["joint-without-state"]
     assert found(made, "urdf-frame-unpublished").because_of == "joint-without-state"

@@ -591,7 +591,7 @@ class History(Fields):
         return False
 
     def _have_room(self) -> None:
-        """Reserve space after the newest sample, for samples that the kernel inserts."""
+        """Reserve space after the newest sample, for samples that the C module inserts."""
         if self.count == len(self.records) // WORDS:
             room = max(_LEAST_ROOM, min(self.count, _MOST_ROOM), self.count >> _ROOM)
             self._splice(self.count, self.count, array("q", bytes(RECORD * room)))

@@ -299,8 +299,8 @@ def _ahead(model: Model, track: Track, ahead: int) -> Hit:
     "hour from the stamps of the messages before and after",
     headline="{where} {concerned:has|have} a stamp that lies {off:span} {side} the others",
     detail="{what}: {count} of {of}, {stamp:dated}",
-    consequence="if the stamp is ahead, tf2 drops later transforms until time reaches this stamp; "
-    "if the stamp is behind, tf2 drops this transform",
+    consequence="after a stamp in the future, tf2 drops the transforms that follow, until their "
+    "stamps reach it; tf2 also drops a transform with a stamp that is too far in the past",
     fixes=(Fix("look at where its publisher takes the stamps from"),),
     causes=(
         "memory that was never set, or a number read with the wrong bytes",

@@ -48,7 +48,7 @@ def urdf_invalid(model: Model, limits: Limits) -> Iterator[Hit]:
     rule="a movable joint that mimics no other joint is in no JointState message of the recording, "
     "and its link is in no transform. A warning if no scan, point cloud or range is in a "
     "frame below the joint",
-    headline="{joint} has no state: {child} has no frame",
+    headline="{joint} has no state, so {child} has no frame",
     detail="{joint} ({kind}) moves {below}{silent}",
     consequence="robot_state_publisher publishes nothing below such a joint",
     fixes=(Fix(_STATES),),

@@ -243,9 +243,9 @@ def works(known: TraceResult) -> Reason:
 
 
 def _unread(known: TraceResult) -> Reason | None:
-    """Return the reason if no listener reads a transform of the path; else None.
+    """Return a reason if the topic of a transform on the path has a wrong type; else None.
 
-    The topic of the transform has a wrong type: see the check `wrong-type`.
+    No listener subscribes to such a topic; see the check `wrong-type`.
     """
     for hit in wrong_type(known.trace.model):
         unread = [one for one in known.way or () if set(one.topics) <= set(hit.topics)]

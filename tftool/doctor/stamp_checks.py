@@ -336,8 +336,8 @@ def _newest_before(tracks: list[Track]) -> tuple[Stamps, Stamps]:
 @check(
     "out-of-order",
     Severity.NOTE,
-    rule="more than {samples:g} samples of a transform, and a share above {share:g}, are older "
-    "than a sample that arrived earlier",
+    rule="more than {samples:g} samples of a transform are older than a sample that arrived "
+    "earlier, and they are more than a share of {share:g} of its samples",
     headline="{where} {concerned:arrives|arrive} out of order",
     detail="{edge}: {count} of {of} samples",
     consequence="harmless to tf2; a sign of threads, a second publisher, a lossy network, or a "

@@ -121,7 +121,9 @@ QUANTITIES: Final = tuple(name for _, names, _ in _GROUPS.values() for name in n
 
 
 def chosen(words: Sequence[str]) -> tuple[str, ...]:
-    """Return the quantities that `words` name; the title of a panel selects all its quantities.
+    """Return the quantities for some names: names of quantities, or titles of panels of a plot.
+
+    The title of a panel stands for all quantities in the panel.
 
     Raises:
         UsageError: If a word is neither a quantity nor a panel.

@@ -23,7 +23,7 @@ MOST_EDGES: Final = 100_000
 _NEVER: Final = 2**62, 0
 _FEWEST: Final = 16
 _MOST_AHEAD: Final = 16  # maximum ratio of allocated rows to rows read so far
-_FREELY: Final = 1 << 22  # rows of all edges that may be allocated regardless of that ratio
+_UNESTIMATED: Final = 1 << 22  # rows of all edges that may be allocated regardless of that ratio
 _RECORD: Final = 64  # bytes of a transform's record
 
 
@@ -65,7 +65,7 @@ class Batch:
 
 
 def in_order(batches: Sequence[Batch]) -> Batch:
-    """Merge batches that share one buffer into one batch, ordered by the messages' offsets."""
+    """Merge batches of messages in the same bytes into one batch, in the order of the bytes."""
     if len(batches) == 1:
         return batches[0]
     starts, lengths, log_times, senders = (
@@ -100,7 +100,7 @@ class _Column:
         self.count = needed = first + count
         if needed > len(self._rows):
             kind, before = self._rows.dtype, self._rows
-            rows = _wanted(needed, share, _FREELY)
+            rows = _wanted(needed, share, _UNESTIMATED)
             self._rows = _room(rows * kind.itemsize).view(kind)
             self._rows[:first] = before[:first]
         return self._rows[first:needed]
@@ -110,17 +110,18 @@ class _Column:
         return self._rows[: self.count]
 
 
-def _wanted(needed: int, share: float, freely: int) -> int:
+def _wanted(needed: int, share: float, unestimated: int) -> int:
     """Return the number of rows to allocate for a growing column.
 
     Args:
         needed: Minimum number of rows.
-        share: Fraction of the recording read so far, 0 to 1.
-        freely: Number of rows that may be allocated regardless of `share`.
+        share: Fraction of the recording read so far, 0 to 1; the rows of the whole are estimated
+            from it.
+        unestimated: Number of rows that may be allocated without an estimate.
     """
     # Extrapolate from the fraction read: copying rows later costs more than memory that is
     # allocated but never used.
-    most = max(needed * _MOST_AHEAD, freely)
+    most = max(needed * _MOST_AHEAD, unestimated)
     likely = int(needed / share * 1.02) if share * most > needed else needed * _MOST_AHEAD
     return max(likely, needed * 3 // 2, _FEWEST)
 
@@ -170,13 +171,14 @@ class Growing:
         self.state = array("q", (0, -1, 1, 0, 0, 0))
         self.first = _NEVER
 
-    def make_room(self, count: int, share: float = 1.0, freely: int = 0) -> int:
+    def make_room(self, count: int, share: float = 1.0, unestimated: int = 0) -> int:
         """Enlarge the columns of the edge, if `count` more rows do not fit.
 
         Args:
             count: Number of rows that must be free.
-            share: Fraction of the recording read so far, 0 to 1.
-            freely: Number of rows that may be allocated regardless of `share`.
+            share: Fraction of the recording read so far, 0 to 1; the rows of the whole are
+                estimated from it.
+            unestimated: Number of rows that may be allocated without an estimate.
 
         Returns:
             Number of rows that were allocated, 0 if `count` rows were free.
@@ -186,7 +188,7 @@ class Growing:
         if needed <= before:
             return 0
         # An edge with one transform may never get a second.
-        rows = _wanted(needed, share, freely if there else 0)
+        rows = _wanted(needed, share, unestimated if there else 0)
         # Both columns are in one piece of memory, so that only its end is unused.
         split = rows * _RECORD
         room = _room(split + rows * self.messages.itemsize)
@@ -253,7 +255,7 @@ class Table:
         self._log_times = _Column(np.int64)
         self._senders = _Column(np.int32)
         self._left_out = 0
-        self._freely = _FREELY
+        self._unestimated = _UNESTIMATED
         self.refused: Counter[str] = Counter()
         """Number of refused messages, by reason."""
 
@@ -290,7 +292,7 @@ class Table:
 
     def make_room(self, edge: Growing, message: int) -> None:
         """Allocate a row, if none is free, for an edge's next transform, in message `message`."""
-        self._freely -= edge.make_room(1, self.share(message + 1), max(self._freely, 0))
+        self._unestimated -= edge.make_room(1, self.share(message + 1), max(self._unestimated, 0))
 
     def leave_out(self, count: int) -> None:
         """Add to the number of transforms that are left out because there are too many edges."""

@@ -118,9 +118,10 @@ class RangeCheck(AnswerCheck):
 
 
 def range_form(unit: Unit, default: RangeCheck | None = None, tolerance: float = NEAR) -> Form:
-    """Return the form of a check of a number, with keys below, above, between, is, tolerance.
+    """Return the form by which a scenario's check of a number is read.
 
-    The check is `default` if a scenario gives none of these keys.
+    The form has the keys `below`, `above`, `between`, `is` and `tolerance`. Without any of these
+    keys, the check is `default`.
     """
     one = values.quantity(unit)
     fields = {

@@ -138,7 +138,7 @@ class MovingEdge:
     __slots__ = ("_buckets", "column", "intervals")
 
     def __init__(self, column: Column, count: int) -> None:
-        """Precompute the tables of an edge that save time in a lookup at `count` times."""
+        """Precompute tables of an edge, which make a lookup at `count` stamps faster."""
         self.column = column
         k = len(column.stamps)
         self.intervals = (

@@ -32,7 +32,7 @@ Moving = frozenset[str] | None
 
 
 def drawn(snapshot: Snapshot, moving: Moving, marks: Marks, options: TreeOptions) -> Iterator[str]:
-    """Yield the text of the tree in parts, so that a large tree appears at once.
+    """Yield the text of the tree in parts, so that the first lines of a large tree appear soon.
 
     On a terminal, lines are shortened to the width of the terminal unless --wide is given.
     """

@@ -138,7 +138,8 @@ def open_input(name: str) -> EditedInput:
         for path in paths:
             if path.is_dir():
                 raise InputError(
-                    f"'{path}' is a folder: with several inputs, name each recording itself."
+                    f"'{path}' is a folder, which must be the only input: with several inputs, "
+                    "give the path of each recording."
                 )
             try:
                 opened.add(path)

@@ -78,7 +78,7 @@ class SingleMessages:
 
         Args:
             file: The file.
-            chosen: Index of the stream of each chosen channel, by the number of the channel.
+            chosen: Position of each chosen channel in the list of streams, by the channel's id.
             head: Number of bytes needed from each message; None for all bytes.
         """
         self._file = file

@@ -253,7 +253,16 @@ def listened(
     watch: Callable[[World], object] | None,
     glance: Callable[[Frames, Duration], object] | None = None,
 ) -> Frames:
-    """Record the frames of a joined session for the duration `lasting`; see `open_frames`."""
+    """Record the frames of a joined session.
+
+    Args:
+        session: The joined session.
+        lasting: Duration of the recording, nanoseconds.
+        cache_time: Time for which samples are kept, nanoseconds; None for all samples.
+        watch: Function called once with the world, before the recording.
+        glance: Function called in another thread during the recording, again and again, with a
+            copy of the frames and the time since the start.
+    """
     world = session.world
     if watch is not None:
         watch(world)
