@@ -779,3 +779,38 @@ def test_limbs_that_a_tracker_of_people_loses_are_no_jumps():
                 pose = (1.0 + 0.001 * tick + far, 0.3 * number, 2.0, *NO_TURN)
                 made.sent("camera_depth_frame", f"limb_{number}", tick / 30.0, pose, node="/people")
         assert ("teleport" in ids(made, notes=True)) is told
+
+
+def test_no_rate_is_offered_if_the_network_holds_transforms_back():
+    for held, told in ((0.0, True), (0.5, False)):
+        made = robot(odometry=False)
+        for tick in range(40):
+            # One transform of ten is on the way for longer, of those that come at 5 Hz.
+            late = held if tick % 10 == 9 else 0.0
+            at = 0.2 * tick
+            made.sent("odom", "base_link", at, drives(at), latency=0.03 + late)
+        texts = [fix.text for fix in found(made, "sensor-outruns-tf").fixes]
+        assert any("Hz or more" in text for text in texts) is told
+
+
+def test_a_mount_in_the_messages_of_a_frame_that_moves_is_not_offered_as_static():
+    for together in (True, False):
+        made = robot(odometry=False, laser=False)
+        edges = (("base_link", "laser", stands), ("odom", "base_link", drives))
+        for tick in range(40):
+            for parent, child, pose in edges:
+                made.sent(parent, child, 0.2 * tick, pose(0.2 * tick), latency=0.1)
+        if together:
+            mounts, moving = made.records.values()
+            mounts[:] = [(*one[:2], other[2]) for one, other in zip(mounts, moving, strict=True)]
+        fixes = found(made, "sensor-outruns-tf").fixes
+        assert any("/tf_static" in fix.text for fix in fixes) is not together
+
+
+def test_a_single_sample_in_a_recording_of_less_than_a_second_is_a_note():
+    for end, severity in ((0.5, Severity.NOTE), (8.0, Severity.WARNING)):
+        made = Robot()
+        made.moving("odom", "base_link", end=end)
+        made.sent("base_link", "cube", 0.1)
+        made.hears("/scan", "cube", end=end)
+        assert found(made, "single-sample").severity is severity

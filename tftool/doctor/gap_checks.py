@@ -468,8 +468,8 @@ def coarse_odometry(model: Model, limits: Limits) -> Iterator[Hit]:
     "single-sample",
     Severity.WARNING,
     rule="a transform on a topic for moving transforms was sent once. A note if the recording "
-    "contains no other data. A note also for a frame in map, odom or world if no message with "
-    "a position is in this frame or below it",
+    "contains no other data, or lasts less than 1 s. A note also for a frame in map, odom or world "
+    "if no message with a position is in this frame or below it",
     headline="{where} {concerned:was|were} sent once, on /tf",
     detail="{edge}: at {stamp:moment}{beside}",
     consequence="lookups succeed only at the stamp of this sample, and only while the cache keeps "
@@ -495,7 +495,8 @@ def single_sample(model: Model, limits: Limits) -> Iterator[Hit]:
                 names = [f"{one.child} {count(len(one.stamps), 'time')}" for one in alike]
                 beside = f"; {several(names, 3)}"
                 fix = Fix("probably a false detection: look whether the object was there")
-            is_all = len(model.tracks) == 1 and not model.heard
+            is_short = model.end - model.start < NANOSECONDS
+            is_all = is_short or (len(model.tracks) == 1 and not model.heard)
             is_shown = _is_used(model, track) and not is_all
             yield hit_of(
                 track,
