@@ -755,6 +755,7 @@ def test_a_kind_that_changes_once_is_a_warning_and_ros_1_keeps_the_first():
         assert finding.severity is Severity.WARNING
         assert so in finding.consequence
         assert "with poses 0.30 m apart" in finding.evidence[0]
+        assert ("the kind changes once" in finding.evidence[0]) is (kind == "rosbag2")
 
 
 def test_of_two_sources_whose_stamps_are_hours_apart_tf2_keeps_one():
@@ -814,3 +815,15 @@ def test_a_single_sample_in_a_recording_of_less_than_a_second_is_a_note():
         made.sent("base_link", "cube", 0.1)
         made.hears("/scan", "cube", end=end)
         assert found(made, "single-sample").severity is severity
+
+
+def test_lost_samples_of_a_fast_transform_are_a_note():
+    for hz, severity in ((500.0, Severity.NOTE), (20.0, Severity.WARNING)):
+        made = Robot()
+        for tick in range(600):
+            # Every tenth sample and the next one are lost, while the robot turns by 5° a sample.
+            if tick % 10 > 1:
+                at = tick / hz
+                pose = (0.0, 0.0, 0.0, *turned(math.radians(5.0 * tick)))
+                made.sent("odom", "base_link", at, pose)
+        assert found(made, "gap").severity is severity

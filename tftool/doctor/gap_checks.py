@@ -176,8 +176,8 @@ def is_detection(model: Model, track: Track) -> bool:
     "{missed:g} periods or more, and for a gap of {lost:g} s and {lost_periods:g} periods "
     "or more across which it turns by {turned:g}°. A transform with one exact period is also "
     "reported if a share of {share:g} and {few:g} samples or more are missing. A note if it "
-    "turns by less than {lossy:g}° across each of these gaps, and for a part of a robot that no "
-    "sensor uses",
+    "turns by less than {lossy:g}° across each of these gaps, if no gap reaches {short:g} s, and "
+    "for a part of a robot that no sensor uses",
     headline="{where} {concerned:has a gap|have gaps}{often}",
     detail="{edge}: nothing from {begin:moment} to {end:moment} ({length:span}; usually every "
     "{period:span}){why}{beside}",
@@ -203,6 +203,7 @@ def is_detection(model: Model, track: Track) -> bool:
         "lossy": 10.0,
         "share": 0.05,
         "few": 20,
+        "short": 0.05,
     },
     why="four messages lost in a row are no accident on a reliable topic; the usual "
     "timeouts of consumers cover shorter gaps",
@@ -298,6 +299,7 @@ def _turned_or_lossy(model: Model, track: Track, limits: Limits) -> Hit | None:
             return None
         place = int(turned.argmax())
         is_far = turned[place] > limits["lossy"] and not model.is_minor(track)
+        is_far &= steps.max() >= limits["short"] * NANOSECONDS
         severity = Severity.WARNING if is_far else Severity.NOTE
     worst = int(wide[place])
     begin, end = int(track.sorted_stamps[worst]), int(track.sorted_stamps[worst + 1])

@@ -13,7 +13,7 @@ from tftool.doctor.missing_joins import ends_at_the_root
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.publisher_checks import by_child
 from tftool.doctor.stamp_stream import JOINT_STATES, Track, family, rate
-from tftool.doctor.wording import is_ros1, metres
+from tftool.doctor.wording import is_ros1, metres, span
 
 check = checks_of(Area.PUBLISHERS)
 
@@ -24,8 +24,7 @@ check = checks_of(Area.PUBLISHERS)
     rule="a frame is the child of a static transform and of a moving transform. A warning if the "
     "kind changes once",
     headline="{child} is sent on /tf and on /tf_static",
-    detail="moving: {moving}; static: {static}{apart}; the kind changes {turns:times}, at most "
-    "{history:span} of history are kept",
+    detail="moving: {moving}; static: {static}{apart}{changes}",
     consequence="{so}",
     causes=(
         "SLAM beside the robot description, with other parents",
@@ -46,6 +45,7 @@ def static_and_dynamic(model: Model, limits: Limits) -> Iterator[Hit]:
         order = np.argsort(logs, kind="stable")
         turns = np.flatnonzero(np.diff(kinds[order].astype(np.int8)))
         bounds = np.concatenate((logs[order][:1], logs[order][turns + 1], logs[order][-1:]))
+        history = int(np.diff(bounds).max()) if len(bounds) > 1 else 0
         is_one_edge = len({track.edge for track in tracks}) == 1
         fix = ends_at_the_root(model, moving[child], statics)
         if fix is None:
@@ -63,7 +63,8 @@ def static_and_dynamic(model: Model, limits: Limits) -> Iterator[Hit]:
                 "moving": [f"{t.name} on {', '.join(t.topics)}" for t in moving[child]],
                 "static": [f"{t.name} on {', '.join(t.topics)}" for t in statics],
                 "turns": len(turns),
-                "history": int(np.diff(bounds).max()) if len(bounds) > 1 else 0,
+                "history": history,
+                "changes": _changes(model, len(turns), history),
                 "apart": _two_mounts(moving[child][0], statics[0]) if is_one_edge else "",
                 "so": _mixed_kinds(model, child, starts_static=bool(kinds[order][0])),
             },
@@ -83,6 +84,20 @@ def _two_mounts(track: Track, static: Track) -> str:
 
 _SAME_MOUNT = 5e-4
 """Maximum distance between two values of one mount, metres."""
+
+
+def _changes(model: Model, turns: int, history: int) -> str:
+    """Return a clause about the changes of kind, which ROS 1 ignores.
+
+    Args:
+        model: Model of the evidence.
+        turns: Number of changes.
+        history: Longest time without a change, nanoseconds.
+    """
+    if is_ros1(model.evidence):
+        return ""
+    changes = "once" if turns == 1 else f"{turns} times"
+    return f"; the kind changes {changes}, at most {span(history)} of history are kept"
 
 
 def _mixed_kinds(model: Model, child: str, *, starts_static: bool) -> str:
