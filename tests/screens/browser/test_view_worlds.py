@@ -196,8 +196,10 @@ def test_a_trail_shows_no_other_moments_after_settings_jumps_and_drags(chromium,
     places = "Math.min(...tftool.trailOf(arguments[0]).map(([x]) => x)) - tftool.moment()"
     with view(tmp_path, run) as address:
         page = Page(chromium, address, "whole=0&trails=1&view=top")
+        # The moment is 0 before the first frame is drawn, too.
+        page.until(lambda: any(one["arrow"] for one in page.drawn().values()))
         page.until(lambda: page.said("tftool.moment()") == 0)
-        (moving,) = (name for name in page.drawn() if page.drawn()[name]["arrow"])
+        (moving,) = (name for name, one in page.drawn().items() if one["arrow"])
         over = page.find("#over")
 
         def oldest():
