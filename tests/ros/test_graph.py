@@ -177,3 +177,13 @@ def test_a_destroyed_node_offers_no_services(ros_runtime):
 
     owners = {name.rpartition("/")[0] for name, _ in stays.get_service_names_and_types()}
     assert owners == {"/stays"}
+
+
+def test_hundreds_of_nodes_offer_their_services(ros_runtime):
+    import rclpy
+
+    rclpy.init()
+    nodes = [rclpy.create_node(f"node_{number}") for number in range(600)]
+
+    names = dict(nodes[0].get_service_names_and_types())
+    assert all(f"/node_{number}/get_parameters" in names for number in range(600))

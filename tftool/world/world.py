@@ -328,8 +328,10 @@ class World:
 
     @property
     def _served(self) -> NamedOffers[Handler]:
-        while self._deferred:
-            _, serve = self._deferred.pop(0)
+        # `serve` may look services up. The list is therefore emptied first: otherwise each node
+        # would serve from within the one before it, and many nodes exceed the limit of recursion.
+        deferred, self._deferred = self._deferred, []
+        for _, serve in deferred:
             serve()
         return self._services
 
