@@ -359,6 +359,29 @@ def test_a_network_that_is_gone_for_a_time_is_one_finding(lost):
     assert "outage" not in ids(made)
 
 
+@pytest.mark.parametrize("ahead", [0.0, 80.0])
+def test_each_outage_is_told_whatever_the_offset_of_the_clock(ahead):
+    """Check two outages in which the lidar's and the odometry's data is lost."""
+    made = Robot(log_from=START - ahead)
+    made.static("base_link", "laser")
+    for begin, end in ((0.0, 6.0), (9.0, 20.0), (26.0, 40.0)):
+        made.moving("odom", "base_link", begin=begin, end=end)
+        made.hears("/scan", "laser", begin=begin, end=end)
+    finding = found(made, "outage")
+    assert finding.message == (
+        "nothing arrived for 6.02 s on 2 of 2 streams, the longest of 2 outages (9.04 s in all)"
+    )
+    assert finding.count == 2
+    assert "on 2 of them data of that time never came (up to 6.10 s)" in finding.evidence[0]
+    # Less than half of the outage is lost, but not all came.
+    held = robot(scans=False)
+    held.hears("/scan", "laser", end=3.0)
+    held.hears("/scan", "laser", begin=4.0)
+    silent(held, 2.0, 6.0, lost=False)
+    told = found(held, "outage").evidence[0]
+    assert "on 1 of them data of that time never came (up to 1.10 s)" in told
+
+
 def test_two_samples_at_once_have_not_stopped():
     made = robot()
     for at in (2.0, 2.02):

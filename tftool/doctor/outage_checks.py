@@ -1,17 +1,21 @@
 """Checks of arrivals: times without any message, and streams that stall."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 
-from tftool.base.stamps import NANOSECONDS
+from tftool.base.stamps import NANOSECONDS, Duration, Stamp
 from tftool.doctor.check import checks_of, hit_of
 from tftool.doctor.findings import Area, Fact, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_stream import Heard, Track
-from tftool.doctor.wording import several
+from tftool.doctor.wording import moment, several, span
 
 check = checks_of(Area.COVERAGE)
+
+Name = TypeVar("Name")
 
 
 @check(
@@ -20,8 +24,8 @@ check = checks_of(Area.COVERAGE)
     rule="on half or more of the streams with {hz:g} Hz or more, nothing arrives for more than "
     "{seconds:g} s and {periods:g} periods. A topic of messages and a transform are among "
     "these streams. Afterwards the streams go on, with a gap in their stamps or with delayed "
-    "data. Or no message at all arrives for {again:g} s, {times:g} times, and messages on "
-    "/clock then arrive in a burst",
+    "data. A constant difference between the clocks is subtracted first. Or no message at all "
+    "arrives for {again:g} s, {times:g} times, and messages on /clock then arrive in a burst",
     headline="nothing arrived for {length:span} on {streams} of {of} streams{often}",
     detail="from {begin:moment} to {end:moment} (log times): {names}; {lost}",
     consequence="data stamped in this time arrived late, in a burst, or never",
@@ -37,50 +41,152 @@ def outage(model: Model, limits: Limits) -> Iterator[Hit]:
     if (stalled := _receiver_stalls(model, limits)) is not None:
         yield stalled
         return
-    silent: list[tuple[Track | Heard, int, int]] = []
-    count = 0
-    streams: list[Track | Heard] = [*model.dynamic, *(h for h in model.heard if h.is_spatial)]
-    for stream in streams:
-        steps = np.diff(stream.logs)
-        if len(steps) < 10 or (usual := int(np.median(steps))) * limits["hz"] > NANOSECONDS:
-            continue
-        count += 1
-        place = int(steps.argmax())
-        if steps[place] > max(limits["seconds"] * NANOSECONDS, limits["periods"] * usual):
-            silent.append((stream, int(stream.logs[place]), int(stream.logs[place + 1])))
-    begin = max((begin for _, begin, _ in silent), default=0)
-    end = min((end for _, _, end in silent), default=0)
-    kinds = {type(stream) for stream, _, _ in silent}
-    if len(kinds) < 2 or 2 * len(silent) < count or end - begin < limits["seconds"] * NANOSECONDS:
-        return
-    missed = sum(
-        _is_hole(stream, begin, end, limits["seconds"] * NANOSECONDS) for stream, _, _ in silent
-    )
-    held = [one.latency[one.logs >= end][0] - one.median_latency for one, _, _ in silent]
-    if not missed and 2 * max(held) < end - begin:
-        return  # a player or a simulation paused
-    lost = "all of it came afterwards"
-    if missed:
-        lost = f"on {missed} of them data of that time never came"
-    gone = [one.name for one in streams if begin - NANOSECONDS < one.logs[-1] < end]
+    outages = [one for one in _outages(model, limits) if one.lost or 2 * one.held > one.length]
+    if not outages:
+        return  # or a player or a simulation paused
+    worst = max(outages, key=lambda one: one.length)
+    others = [
+        f"{moment(one.begin)} to {moment(one.end)} ({several([s.name for s in one.streams])})"
+        for one in outages
+        if one is not worst
+    ]
+    also = f"; also from {several(others, 3)}" if others else ""
+    total = span(sum(one.length for one in outages))
     yield Hit(
-        edges=tuple(stream.edge for stream, _, _ in silent if isinstance(stream, Track)),
-        topics=tuple(stream.topic for stream, _, _ in silent if isinstance(stream, Heard)),
-        since=begin,
-        until=end,
+        edges=_unique(s.edge for one in outages for s in one.streams if isinstance(s, Track)),
+        topics=_unique(s.topic for one in outages for s in one.streams if isinstance(s, Heard)),
+        since=outages[0].begin,
+        until=outages[-1].end,
+        count=len(outages),
         facts={
-            "begin": begin,
-            "end": end,
-            "length": end - begin,
-            "streams": len(silent),
-            "of": count,
-            "names": [stream.name for stream, _, _ in silent],
-            "lost": f"{lost}; {several(gone)} never came back" if gone else lost,
-            "often": "",
+            "begin": worst.begin,
+            "end": worst.end,
+            "length": worst.length,
+            "streams": len(worst.streams),
+            "of": worst.of,
+            "names": [stream.name for stream in worst.streams],
+            "lost": _lost(worst) + also,
+            "often": f", the longest of {len(outages)} outages ({total} in all)" if others else "",
         },
         fixes=(Fix("look at the network and the recorder at that time"),),
         alone=True,
     )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Outage:
+    """One time without arrivals on several streams.
+
+    Attributes:
+        begin: Log time at which the last of the streams fell silent.
+        end: Log time at which the first of the streams resumed.
+        streams: The silent streams.
+        of: Number of streams that had begun before.
+        holes: For each silent stream, the largest step between the stamps of that time,
+            nanoseconds; 0 if it is not above 3 periods.
+        held: Largest delay of the first message afterwards, beyond the usual delay, nanoseconds.
+        gone: Names of the streams that ended at the begin or meanwhile.
+    """
+
+    begin: Stamp
+    end: Stamp
+    streams: tuple[Track | Heard, ...]
+    of: int
+    holes: tuple[Duration, ...]
+    held: Duration
+    gone: tuple[str, ...]
+
+    @property
+    def length(self) -> Duration:
+        """Return the time between `begin` and `end`, nanoseconds."""
+        return self.end - self.begin
+
+    @property
+    def lost(self) -> int:
+        """Return the number of streams without stamps for half of the outage or more."""
+        return sum(2 * hole > self.length for hole in self.holes)
+
+
+def _outages(model: Model, limits: Limits) -> list[_Outage]:
+    """Return the times without arrivals on most streams, in the order of time.
+
+    Of outages that overlap, the one with the most streams is kept.
+    """
+    rows: list[tuple[int, int, Track | Heard]] = []
+    every: list[Track | Heard] = [*model.dynamic, *(h for h in model.heard if h.is_spatial)]
+    judged: list[Track | Heard] = []
+    for stream in every:
+        steps = np.diff(stream.logs)
+        if len(steps) < 10 or (usual := int(np.median(steps))) * limits["hz"] > NANOSECONDS:
+            continue
+        judged.append(stream)
+        least = max(limits["seconds"] * NANOSECONDS, limits["periods"] * usual)
+        wide = np.flatnonzero(steps > least)
+        ends = zip(stream.logs[wide].tolist(), stream.logs[wide + 1].tolist(), strict=True)
+        rows += [(low, high, stream) for low, high in ends]
+    found: list[tuple[int, int, list[Track | Heard]]] = []
+    silent: list[tuple[int, int, Track | Heard]] = []
+    for row in sorted(rows, key=lambda row: row[0]):
+        begin = row[0]
+        silent = [one for one in silent if one[1] > begin] + [row]
+        end = min(one[1] for one in silent)
+        of = sum(int(stream.logs[0]) <= begin for stream in judged)
+        is_most = len({type(one[2]) for one in silent}) == 2 and 2 * len(silent) >= of
+        if is_most and end - begin >= limits["seconds"] * NANOSECONDS:
+            found.append((begin, end, [one[2] for one in silent]))
+    kept: list[tuple[int, int, list[Track | Heard]]] = []
+    for one in sorted(found, key=lambda one: (-len(one[2]), one[0] - one[1])):
+        if all(one[0] >= other[1] or one[1] <= other[0] for other in kept):
+            kept.append(one)
+    return [
+        _Outage(
+            begin,
+            end,
+            tuple(streams),
+            sum(int(stream.logs[0]) <= begin for stream in judged),
+            tuple(_hole(stream, begin, end) for stream in streams),
+            max(_held(stream, end) for stream in streams),
+            tuple(s.name for s in every if begin - NANOSECONDS < s.logs[-1] < end),
+        )
+        for begin, end, streams in sorted(kept, key=lambda one: one[0])
+    ]
+
+
+def _held(stream: Track | Heard, end: Stamp) -> Duration:
+    return int(stream.latency[stream.logs >= end][0]) - stream.median_latency
+
+
+def _hole(stream: Track | Heard, begin: Stamp, end: Stamp) -> Duration:
+    """Return the largest step between a stream's stamps in an outage; 0 if up to 3 periods.
+
+    The stamps are moved by the stream's usual latency, because its clock may differ from the
+    recorder's by a constant.
+
+    Args:
+        stream: The stream.
+        begin: Log time of the last arrival before the outage.
+        end: Log time of the first arrival after the outage.
+    """
+    stamps = np.sort(stream.stamps)
+    steps = np.diff(stamps)
+    place = int(np.searchsorted(stream.logs, begin, side="right")) - 1
+    by = int(stream.arrivals[place] - stream.logs[place]) - stream.median_latency
+    inside = (stamps[1:] > begin + by) & (stamps[:-1] < end + by)
+    hole = int(steps[inside].max(initial=0))
+    return hole if hole > 3 * int(np.median(steps)) else 0
+
+
+def _lost(outage: _Outage) -> str:
+    """Return a clause about what became of the messages of an outage."""
+    lost = "all of it came afterwards"
+    if any(outage.holes):
+        wide = sum(map(bool, outage.holes))
+        lost = f"on {wide} of them data of that time never came (up to {span(max(outage.holes))})"
+    return f"{lost}; {several(outage.gone)} never came back" if outage.gone else lost
+
+
+def _unique(names: Iterable[Name]) -> tuple[Name, ...]:
+    return tuple(dict.fromkeys(names))
 
 
 def _receiver_stalls(model: Model, limits: Limits) -> Hit | None:
@@ -128,23 +234,6 @@ def _receiver_stalls(model: Model, limits: Limits) -> Hit | None:
 
 _BURST = 3
 """Number of messages of `/clock` that arrive at once after the receiver stalled."""
-
-
-def _is_hole(stream: Track | Heard, begin: int, end: int, least: float) -> bool:
-    """Whether the stamps of a stream also have a gap during a pause of arrivals.
-
-    Args:
-        stream: The stream.
-        begin: Log time of the last arrival before the pause.
-        end: Log time of the first arrival after the pause.
-        least: Smallest difference between two stamps that counts as a gap, nanoseconds.
-    """
-    stamps = np.sort(stream.stamps)
-    steps = np.diff(stamps)
-    delay = stream.arrivals - stream.logs
-    near = int(delay[0]) if len(delay) else 0
-    wide = (steps > least) & (stamps[1:] > begin + near) & (stamps[:-1] < end + near)
-    return bool(wide.any())
 
 
 @check(
