@@ -284,6 +284,18 @@ def test_two_sensors_of_one_clock_are_one_finding():
     (finding,) = (one for one in made.judged().findings if one.id == "clock-offset")
     assert finding.topics == ("/imu", "/magnet")
     assert finding.message == "/imu, /magnet are 400 ms off the other clocks"
+    # A robot's clock is off by more than a minute; its streams have delays of their own, and the
+    # network holds the last messages back.
+    made = Robot(log_from=START)
+    made.static("base_link", "laser")
+    for begin, end, late in ((0.0, 6.5, 0.0), (6.5, 8.0, 2.0)):
+        times = {"begin": begin, "end": end}
+        made.moving("odom", "base_link", latency=late - 79.68, **times)
+        made.hears("/odom", "odom", 10.0, "nav_msgs/Odometry", latency=late - 79.6, **times)
+        made.hears("/scan", "laser", latency=late - 79.83, **times)
+    (finding,) = (one for one in made.judged().findings if one.id == "clock-offset")
+    words = "/odom, /scan are 79.60 s to 79.83 s ahead of the recorder's clock"
+    assert finding.message == words
 
 
 def test_a_scan_that_arrives_one_scan_later_is_on_time():

@@ -1,7 +1,7 @@
 """Checks of clocks: several clocks, offsets between clocks, future stamps and stray stamps."""
 
 from collections import defaultdict
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
@@ -369,9 +369,7 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
     alike: dict[int, list[Track | Heard]] = defaultdict(list)
     for track in model.unshifted:
         ahead = -track.median_latency
-        near = max(_ONE_CLOCK, abs(ahead) // 10_000)
-        same = next((one for one in alike if abs(one - ahead) < near), ahead)
-        alike[same].append(track)
+        alike[_same(alike, ahead)].append(track)
     for heard in model.heard:
         if len(heard.stamps) < 3 or not heard.is_spatial:
             continue
@@ -382,8 +380,7 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
             allowed += float(np.median(steps)) if len(steps) else 0.0
         ahead = -heard.median_latency
         if ahead > allowed or _is_unshifted(model, heard):
-            same = next((one for one in alike if abs(one - ahead) < _ONE_CLOCK), ahead)
-            alike[same].append(heard)
+            alike[_same(alike, ahead)].append(heard)
     if _is_shared(model, list(alike)):
         return  # the recorder's clock is off, and all stamps agree
     groups = _offsets(model) if alike else []
@@ -391,6 +388,10 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
     for ahead, streams in alike.items():
         names = tuple(dict.fromkeys(one.name for one in streams))
         heards = [one for one in streams if isinstance(one, Heard)]
+        offsets = sorted(abs(one.median_latency) for one in streams)
+        by = span(offsets[0])
+        if offsets[-1] - offsets[0] > _ONE_CLOCK:
+            by += f" to {span(offsets[-1])}"
         told = ""
         if model.shift is not None and len(heards) < len(streams):
             told = f": {model.shift.streams} of {model.shift.of} streams are not on the recorder's"
@@ -421,7 +422,7 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
                 "ahead": ahead,
                 "groups": groups,
                 "sources": sources,
-                "found": f"{'is' if len(names) == 1 else 'are'} {span(abs(ahead))} {off}" + told,
+                "found": f"{'is' if len(names) == 1 else 'are'} {by} {off}" + told,
                 "so": so,
             },
             severity=Severity.ERROR
@@ -434,6 +435,16 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
         )
     if not alike:
         yield from _groups_apart(model, limits)
+
+
+def _same(known: Iterable[Duration], ahead: Duration) -> Duration:
+    """Return the first of some offsets that is about equal to `ahead`, else `ahead`.
+
+    Offsets of one clock differ by the streams' own delays: compared with days, seconds are such a
+    delay.
+    """
+    near = max(_ONE_CLOCK, min(seconds(1), abs(ahead) // 100), abs(ahead) // 10_000)
+    return next((one for one in known if abs(one - ahead) < near), ahead)
 
 
 def _is_shared(model: Model, aheads: Sequence[Duration]) -> bool:
@@ -457,7 +468,7 @@ def _is_shared(model: Model, aheads: Sequence[Duration]) -> bool:
 def _is_of_transforms(model: Model, ahead: Duration) -> bool:
     """Whether the stamps of all moving transforms are about `ahead` nanoseconds after reception."""
     moving = [one for one in model.dynamic if one.moves and not one.is_localisation]
-    return bool(moving) and all(abs(one.median_latency + ahead) < _ONE_CLOCK for one in moving)
+    return bool(moving) and all(_same([ahead], -one.median_latency) == ahead for one in moving)
 
 
 def _is_unshifted(model: Model, heard: Heard) -> bool:
