@@ -537,7 +537,7 @@ def test_a_pose_that_stalls_again_and_again_is_a_warning_and_a_few_stalls_are_no
     assert ids(stalls(arm)) == []
     together = found(stalls(pose, arm), "gap")
     assert together.evidence[0].endswith("at the same time: arm in base_link")
-    assert "load" in together.fixes[0].text
+    assert "source of all these streams" in together.fixes[0].text
     made = stalls(pose)
     made.moving("base_link", "arm")
     assert "arm in base_link went on" in found(made, "gap").fixes[0].text

@@ -37,6 +37,27 @@ def test_samples_that_are_missing_one_by_one_are_counted(speed, severity):
     assert finding.message.endswith(": 10.6 % of its samples are missing, up to 3 in a row")
 
 
+def test_a_robot_far_from_the_origin_of_odom_does_not_move_when_odom_turns_about_it():
+    made = Robot()
+    made.moving("odom", "base_link", 50.0, lambda t: (100.0, 0.0, 0.0, *NO_TURN), end=40.0)
+    for tick in range(200):
+        if tick % 9:
+            angle = 0.05 * tick
+            turn = (100.0 * (1.0 - np.cos(angle)), -100.0 * np.sin(angle), 0.0, *turned(angle))
+            made.sent("map", "odom", 0.2 * tick, turn)
+    assert "across it: 5.73° and 0 mm" in found(made, "gap").evidence[0]
+
+
+def test_all_gaps_of_a_robots_pose_are_counted():
+    made = robot(odometry=False)
+    for begin, end in ((0.0, 2.0), (3.5, 5.0), (7.0, 8.0)):
+        made.moving("odom", "base_link", begin=begin, end=end)
+    finding = found(made, "gap")
+    assert finding.count == 2
+    assert "the longest of 2 gaps above 500 ms, 3.54 s in all" in finding.evidence[0]
+    assert finding.fixes
+
+
 def test_irregular_samples_are_not_counted_as_missing():
     made = Robot()
     at, random = 0.0, np.random.default_rng(1)

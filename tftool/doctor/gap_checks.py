@@ -11,8 +11,19 @@ from tftool.doctor.check import checks_of, hit_of
 from tftool.doctor.findings import STOPPED_PERIODS, Area, Fix, Hit, Severity
 from tftool.doctor.missing_joins import is_world
 from tftool.doctor.model import WARM_UP, Limits, Model, is_player
-from tftool.doctor.stamp_stream import BASES, NEVER, PLACED, Heard, Track, family, last_part, rate
+from tftool.doctor.stamp_stream import (
+    BASES,
+    NEVER,
+    PLACED,
+    Heard,
+    Places,
+    Track,
+    family,
+    last_part,
+    rate,
+)
 from tftool.doctor.wording import metres, several, span
+from tftool.geometry.rigid_arrays import rotate, unit
 from tftool.recordings.contract import Stamps
 
 check = checks_of(Area.COVERAGE)
@@ -248,11 +259,9 @@ def gap(model: Model, limits: Limits) -> Iterator[Hit]:
         is_lost = bool(needed) or (is_long and _places_robot(model, track, begin))
         why = f"; {missing} samples in it are unusable (NaN)" if missing else ""
         why += f"; {count(needed, 'sensor message')} in it" if needed else ""
-        cures: tuple[Fix, ...] = ()
-        if not silent:
-            cures = (_publisher_at(model, track, begin, end),)
-        elif again:
-            cures = (Fix("look at the load of the computer and the network at these times"),)
+        if len(found) > 1 and not again:
+            least, total = _least_gap(track, limits), sum(high - low for low, high in found)
+            why += f"; the longest of {len(found)} gaps above {span(least)}, {span(total)} in all"
         yield hit_of(
             track,
             {
@@ -273,8 +282,36 @@ def gap(model: Model, limits: Limits) -> Iterator[Hit]:
             if not again
             and (on_change or end - begin < limits["note"] * NANOSECONDS or not is_lost)
             else Severity.WARNING,
-            fixes=cures,
+            fixes=(_SOURCE if silent else _publisher_at(model, track, begin, end),),
         )
+
+
+_SOURCE = Fix("look at the source of all these streams, and at its link to the recorder")
+"""Remedy for a gap of several streams at the same time."""
+
+
+def base_at(model: Model, track: Track, logs: Stamps) -> tuple[Track, Places] | None:
+    """Return the edge to the robot's base directly below an edge, and its rows at some log times.
+
+    The rows are the first samples that arrived at these times or later; after the end, the last
+    sample. Log times are used, because the stamps of the two edges may be on different clocks.
+    """
+    for below in model.dynamic:
+        if below.parent == track.child and last_part(below.child) in BASES and len(below.by_stamp):
+            return below, np.searchsorted(below.logs, logs).clip(0, len(below.logs) - 1)
+    return None
+
+
+def _robot_moves(model: Model, track: Track, pair: Places) -> float:
+    """Return the distance, metres, by which the robot moves from one sample of an edge to another.
+
+    A turn of odom moves the robot by its distance from the origin of odom. Without a base frame
+    directly below the edge, the distance is that of the edge's child.
+    """
+    base = base_at(model, track, track.logs[pair[1:]]) if track.is_localisation else None
+    where = np.zeros(3) if base is None else base[0].translations[base[1][0]]
+    before, after = track.translations[pair] + rotate(unit(track.rotations[pair]), where)
+    return float(np.linalg.norm(after - before))
 
 
 def _turned_or_lossy(model: Model, track: Track, limits: Limits) -> Hit | None:
@@ -303,11 +340,9 @@ def _turned_or_lossy(model: Model, track: Track, limits: Limits) -> Hit | None:
         severity = Severity.WARNING if is_far else Severity.NOTE
     worst = int(wide[place])
     begin, end = int(track.sorted_stamps[worst]), int(track.sorted_stamps[worst + 1])
-    moved = metres(float(track.strides[worst]))
+    moved = metres(_robot_moves(model, track, track.by_stamp[worst : worst + 2]))
     silent = sorted({heard.topic for heard in model.heard if _is_silent(heard, begin, end)})
-    cure = _publisher_at(model, track, begin, end)
-    if silent:
-        cure = Fix("look at the source of all these topics, and at its link to the recorder")
+    cure = _SOURCE if silent else _publisher_at(model, track, begin, end)
     return hit_of(
         track,
         {

@@ -7,7 +7,7 @@ import numpy as np
 from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, Stamp, seconds
 from tftool.doctor.check import REP105, checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Edge, Fix, Hit, Severity
-from tftool.doctor.gap_checks import is_detection
+from tftool.doctor.gap_checks import base_at, is_detection
 from tftool.doctor.missing_joins import is_world, quoted
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_stream import BASES, Places, Track, last_part
@@ -202,15 +202,14 @@ def _corrections(model: Model, track: Track, limits: Limits) -> Hit | None:
     robot, shown = np.zeros((len(others), 3)), track.edge
     # A step across a long pause, or from the stamps of one clock to those of another, is none.
     is_step = np.diff(track.stamps[places]) < model.settings.cache_time
-    for below in model.dynamic:
-        if below.parent == track.child and last_part(below.child) in BASES and len(below.by_stamp):
-            # Not by stamps, which may be on another clock than those of the localiser.
-            following = np.searchsorted(below.logs, track.logs[others])
-            rows = following.clip(1, len(below.logs) - 1)
-            robot = below.translations[rows]
-            pauses = below.logs[rows] - below.logs[rows - 1]
-            is_step &= (following == rows) & (pauses < model.settings.cache_time)
-            shown = track.parent, below.child
+    if (base := base_at(model, track, track.logs[others])) is not None:
+        below, rows = base
+        rows = rows.clip(1)
+        robot = below.translations[rows]
+        pauses = below.logs[rows] - below.logs[rows - 1]
+        is_step &= track.logs[others] <= below.logs[-1]
+        is_step &= pauses < model.settings.cache_time
+        shown = track.parent, below.child
     # A turn of odom moves the robot by its distance from the origin of odom.
     before, after = (
         track.translations[one] + rotate(unit(track.rotations[one]), robot)
