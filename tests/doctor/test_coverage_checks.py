@@ -326,7 +326,7 @@ def test_the_advised_wait_leaves_a_stall_out():
         if seconds(START + 10.0) < log < seconds(START + 10.6):
             rows[number] = (seconds(START + 13.0), sender)
     cure = found(made, "sensor-outruns-tf").fixes[0].text
-    assert "is enough for 95 %; the longest wait," in cure
+    assert "is enough for 95 %; the longest wait is" in cure
     assert int(cure.split("timeout of ")[1].split()[0]) < 200
 
 

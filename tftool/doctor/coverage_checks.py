@@ -2,7 +2,7 @@
 
 import math
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,7 +16,7 @@ from tftool.doctor.missing_joins import has_base, is_mount
 from tftool.doctor.model import WARM_UP, Limits, Model
 from tftool.doctor.stamp_checks import stands_still
 from tftool.doctor.stamp_stream import NEVER, PLACED, Heard, Track, last_part
-from tftool.doctor.wording import ALIKE, arrival, is_ros1, least_rate, rounded_up, span
+from tftool.doctor.wording import ALIKE, arrival, is_ros1, least_rate, rounded_up, several, span
 from tftool.recordings.contract import Stamps, percentile
 
 check = checks_of(Area.COVERAGE)
@@ -204,6 +204,7 @@ class Waits:
 
     Attributes:
         stamps: The messages' stamps, shape (n,).
+        arrivals: Times of arrival, on the clock of the stamps, shape (n,).
         waits: Time from the arrival of each message until the lookup at its stamp succeeds,
             nanoseconds, shape (n,); NEVER if the lookup always fails.
         link: The edge that delays most lookups.
@@ -211,6 +212,7 @@ class Waits:
     """
 
     stamps: Stamps
+    arrivals: Stamps
     waits: Stamps
     link: Track
     links: tuple[Track, ...]
@@ -224,6 +226,12 @@ class Waits:
     def serves(self, percent: float) -> int:
         """Return the least timeout, nanoseconds, that is enough for `percent` % of `served`."""
         return int(np.percentile(self.served, percent, method="higher"))
+
+    def is_short_without(self, links: Iterable[Track], wait: float) -> bool:
+        """Whether 95 % of the messages would wait less than `wait` seconds without some edges."""
+        rest = [link.served_from(self.stamps) for link in self.links if link not in links]
+        late = [int(percentile(served - self.arrivals, 95)) for served in rest]
+        return max(late, default=0) < wait * NANOSECONDS
 
 
 def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Waits | None:
@@ -258,7 +266,7 @@ def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Wa
     latest = served.max(axis=0)
     waits = np.where(latest == NEVER, NEVER, np.maximum(latest - arrivals, 0))
     blame = np.bincount(served.argmax(axis=0)[waits > 0], minlength=len(links))
-    return Waits(stamps, waits, links[int(blame.argmax())], tuple(links))
+    return Waits(stamps, arrivals, waits, links[int(blame.argmax())], tuple(links))
 
 
 @check(
@@ -411,7 +419,7 @@ def _outrun(model: Model, group: list[tuple[Heard, Waits]], limits: Limits) -> H
             "link": link.name,
             "period": link.period,
             "latency": link.median_latency,
-            "arrives": arrival(link.median_latency),
+            "arrives": _arrives(heard, link),
             "path": [list(track.edge) for track in waits.links],
             "gap": _only_in_holes(waits, limits["seconds"]),
             "skew": abs(link.median_latency - heard.median_latency) > _ONE_CLOCK,
@@ -424,6 +432,15 @@ def _outrun(model: Model, group: list[tuple[Heard, Waits]], limits: Limits) -> H
         fixes=_cures(heard, waits, limits["seconds"]),
         alone=True,
     )
+
+
+def _arrives(heard: Heard, link: Track) -> str:
+    """Return a clause about the latency of an edge, without the offset of a clock that is off."""
+    if link.median_latency > -NANOSECONDS:
+        return arrival(link.median_latency)
+    later = link.median_latency - heard.median_latency
+    side = "later" if later > 0 else "sooner"
+    return f"{span(abs(later))} {side} after its stamp than {heard.topic}"
 
 
 _ONE_CLOCK = 50_000_000
@@ -466,24 +483,27 @@ def _cures(heard: Heard, waits: Waits, wait: float) -> tuple[Fix, ...]:
     # No rate helps the messages whose transforms are on the way for longer than the timeout.
     often = least_rate(link.name, link.period, latest if is_enough else later, wait)
     often = "" if is_enough and latest >= wait * NANOSECONDS else often
-    mount = Fix(f"or, if {link.name} is a mount, as it never moved: send it on /tf_static")
-    # A transform that moves, and comes in the same messages, would be as late without the mount.
-    is_alone = not any(
-        one.moves and bool(np.isin(link.messages, one.messages).mean() > 0.5) for one in waits.links
+    # A rate or a mount is a remedy only if no other transform is as late.
+    often = often if waits.is_short_without([link], wait) else ""
+    mounts = [one for one in waits.links if not one.moves and not _is_robot(one)]
+    mount = Fix(
+        f"or, if they are mounts, as they never moved: send {several([m.name for m in mounts])} on "
+        "/tf_static"
     )
+    is_mount = link in mounts and waits.is_short_without(mounts, wait)
     wait_for = (
         f"wait for it: a timeout of {rounded_up(worst) // 10**6} ms is enough for all that can "
         f"ever be placed ({math.ceil(usual / 1e6)} ms for 95 %)"
     )
-    if worst > 3 * usual:  # a stall, and no wait to plan for
+    if worst > 3 * usual:  # no wait to plan for
         wait_for = (
             f"wait for it: a timeout of {max(10, rounded_up(usual) // 10**6)} ms is enough for "
-            f"95 %; the longest wait, {span(worst)}, is a stall"
+            f"95 %; the longest wait is {span(worst)}"
         )
     return (
         Fix(wait_for),
         *((Fix(f"or {often}") if is_enough else Fix(often),) if often else ()),
-        *((mount,) if not link.moves and not _is_robot(link) and is_alone else ()),
+        *((mount,) if is_mount else ()),
     )
 
 
