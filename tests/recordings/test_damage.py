@@ -253,6 +253,13 @@ def test_metadata_that_lies_is_told_and_not_believed(tmp_path):
         assert len(recording.transforms) > 100
         assert "names 'a.db3', which is missing" in recording.damage[0]
         assert "Read instead: 'renamed.db3'" in recording.damage[1]
+        count = sum(topic.count for topic in recording.topics)
+        assert f"all {count} messages that the metadata counts" in recording.damage[1]
+    metadata = (path / "metadata.yaml").read_text()
+    more = metadata.replace(f"message_count: {count}\n", f"message_count: {count + 1}\n")
+    (path / "metadata.yaml").write_text(more)
+    with open_recording(path) as recording:
+        assert recording.damage[1] == "Read instead: 'renamed.db3'."
     (path / "metadata.yaml").write_text("}{")
     with open_recording(path) as recording:
         assert len(recording.transforms) > 100

@@ -582,10 +582,10 @@ def no_transforms(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "truncated-recording",
     Severity.WARNING,
-    rule="the recording is damaged or incomplete",
-    headline="the recording is damaged or incomplete",
+    rule="the recording is damaged or incomplete, or a file has another name than in the metadata",
+    headline="files of the recording are damaged, missing or renamed",
     detail="{damage}",
-    consequence="data that cannot be read is not in this report",
+    consequence="this report covers only the data that can be read",
     causes=(
         "the recorder was killed",
         "a full disk",

@@ -54,7 +54,16 @@ def _open_file(path: Path) -> Container:
 def _open_folder(folder: Path) -> Container:
     """Open the files of one rosbag2 recording."""
     damage: list[str] = []
-    return _joined(files_of_folder(folder, damage), damage)
+    files = files_of_folder(folder, damage)
+    container = _joined(files, damage)
+    if len(files) == 1 and len(damage) == 2:  # a name in the metadata, and the file read instead
+        held = sum(container.counts)
+        if held and held == read_metadata(folder).get("message_count"):
+            container.damage[1] += (
+                f" This file has all {held} messages that the metadata counts: rename the file, "
+                "because 'ros2 bag play' needs the name in the metadata."
+            )
+    return container
 
 
 def files_of_folder(folder: Path, damage: list[str]) -> list[Path]:
