@@ -187,6 +187,20 @@ def test_two_publishers_of_equal_values_only_repeat_stamps():
     assert ids(made) == ["repeated-stamp"]
 
 
+def test_repeated_stamps_of_a_rewritten_bag_name_the_size_of_the_step_but_no_node():
+    made = robot(odometry=False)
+    made.kind = "ROS 1 bag"
+    for tick in range(160):
+        for shift in (0.0, 0.08 if tick % 2 else 0.0):
+            pose = (0.05 * tick + shift, 0.0, 0.0, *NO_TURN)
+            made.sent("map", "odom", 0.05 * tick, pose, node="/camera_mount")
+    assert "of 320 samples repeat a stamp" in (told := found(made, "repeated-stamp").evidence[0])
+    assert "at most 80 mm" in told
+    assert "sent by /camera_mount" in told
+    made.moving("base_link", "camera", 10.0, stands, offset=0.1, node="/camera_mount")
+    assert "sent by" not in found(made, "repeated-stamp").evidence[0]
+
+
 @pytest.mark.parametrize("kind", ["ROS 1 bag", "rosbag2"])
 def test_a_node_that_repeats_its_newest_pose_under_an_old_stamp_is_no_conflict(kind):
     made = robot(odometry=False)

@@ -56,6 +56,9 @@ class Settings:
 _ONE_CLOCK = seconds(0.05)
 """Maximum difference between two delays of one clock, nanoseconds."""
 
+_LEAD = 2e7
+"""Nanoseconds after its arrival that a stamp must lie to be dated ahead on purpose."""
+
 _AHEAD = seconds(0.1)
 """Maximum time by which a static_transform_publisher of ROS 1 dates ahead: its usual period."""
 
@@ -178,6 +181,23 @@ class Model:
     def has_named_publishers(self) -> bool:
         """Whether two or more nodes with known names publish transforms."""
         return len({one.node for one in self.evidence.transforms.publishers if one.node}) > 1
+
+    @cached_property
+    def unproved_nodes(self) -> frozenset[str]:
+        """Nodes under whose name a tool may have recorded the transforms of other nodes, too.
+
+        Constant transforms dated ahead come from tf's static_transform_publisher. Of one node, only
+        robot_state_publisher sends such transforms beside moving ones that are not dated ahead.
+        """
+        ahead: set[str] = set()
+        others: set[str] = set()
+        for track in self.dynamic:
+            is_ahead = track.median_latency < -_LEAD
+            if is_ahead and not track.moves:
+                ahead.update(track.nodes)
+            elif track.moves and not is_ahead:
+                others.update(track.nodes)
+        return frozenset(node for node in ahead & others if "state_publisher" not in node)
 
     @cached_property
     def was_played(self) -> bool:

@@ -143,8 +143,9 @@ _FROZEN = {"times": 10, "seconds": 1.0}
     "values are equal and the share is below {flood:g}. In ROS 2, transforms from map to "
     "odometry are not reported",
     headline="{where} {concerned:repeats|repeat} stamps",
-    detail="{edge}: {count} of {of} samples repeat a stamp, {different} of them with another value"
-    "{by}",
+    detail="{edge}: {count} of {of} samples repeat a stamp, {different} of them with a value that "
+    "differs by more than {least:m} or {least_turn:deg} (at most {worst:m} and "
+    "{most_turned:deg}){by}",
     consequence="{so}",
     fixes=(
         Fix("look at how these stamps are made: `{publishers} {tf_topic}` lists the publishers"),
@@ -173,8 +174,8 @@ def repeated_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
         if len(again) <= limits["samples"] or stands_still(track):
             continue
         some, others = places[again], places[again + 1]
-        differ = track.apart(some, others) > limits["metres"]
-        differ |= track.turned(some, others) > limits["radians"]
+        apart, turned = track.apart(some, others), track.turned(some, others)
+        differ = (apart > limits["metres"]) | (turned > limits["radians"])
         told = differ | warns  # tf2 is silent about equal ones before noetic and in ROS 2
         different = int(np.count_nonzero(differ))
         is_silent = (
@@ -192,14 +193,19 @@ def repeated_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
                 so = "tf2 keeps the first; from noetic on it prints TF_REPEATED_DATA for each"
             if warns:
                 so = "tf2 drops them and prints TF_REPEATED_DATA for each"
+            nodes = [node for node in track.nodes if node not in model.unproved_nodes]
             yield hit_of(
                 track,
                 {
                     "count": count,
                     "of": len(places),
                     "different": different,
+                    "least": limits["metres"],
+                    "least_turn": limits["radians"],
+                    "worst": float(apart.max()),
+                    "most_turned": float(turned.max()),
                     "so": so,
-                    "by": f"; sent by {', '.join(track.nodes)}" if track.nodes else "",
+                    "by": f"; sent by {', '.join(nodes)}" if nodes else "",
                 },
                 since=int(track.logs[some[told]].min()),
                 count=count,
