@@ -45,6 +45,8 @@ class Robot:
     slashed: dict[tuple[str, str, bool], int] = field(default_factory=dict)
     clock: list[tuple[int, int]] = field(default_factory=list)
     damage: tuple[str, ...] = ()
+    commands: dict[str, list[int]] = field(default_factory=dict)
+    """Log times of the commands to move on each topic."""
     kind: str = "columns"
     urdf: str = ""
     joints: frozenset[str] | None = None
@@ -160,6 +162,7 @@ class Robot:
                 _places(names.index(frame) for _, _, frame in rows),
             )
         every = [*logs.tolist(), *(int(h.log_times.max()) for h in headers.values() if len(h))]
+        every += [log for times in self.commands.values() for log in times]
         topics = tuple(
             RecordedTopic(
                 name, "tf2_msgs/TFMessage", transforms=True, static=name.endswith("tf_static")
@@ -184,6 +187,7 @@ class Robot:
             topics=topics,
             publishers=tuple(self.publishers),
             damage=self.damage,
+            commands={topic: np.array(times, np.int64) for topic, times in self.commands.items()},
             start=min(every, default=0),
             end=max(every, default=0),
         )

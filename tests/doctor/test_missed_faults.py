@@ -48,6 +48,36 @@ def test_a_robot_far_from_the_origin_of_odom_does_not_move_when_odom_turns_about
     assert "across it: 5.73° and 0 mm" in found(made, "gap").evidence[0]
 
 
+@pytest.mark.parametrize("number", [0, 5, 40])
+def test_commands_that_go_on_show_that_all_transforms_stopped_too_early(number):
+    made = robot()
+    made.hears("/log", "", kind="rosgraph_msgs/Log", end=12.0)
+    made.commands["/cmd_vel"] = [made.log(0.1 * tick) for tick in range(80 + number)]
+    assert ids(made, notes=True) == ["edge-stopped"] * (number == 40)
+    if number == 40:
+        told = found(made, "edge-stopped")
+        assert told.severity is Severity.WARNING
+        assert "; /cmd_vel goes on for 3.92 s, with 40 commands to move" in told.evidence[0]
+
+
+@pytest.mark.parametrize(
+    ("later", "severity"),
+    [
+        ("constants", Severity.NOTE),
+        ("commands", Severity.WARNING),
+        ("scans", Severity.ERROR),
+    ],
+)
+def test_a_robot_that_was_shut_down_before_its_recorder_is_a_note(later, severity):
+    made = robot()
+    made.moving("base_link", "arm", 10.0, stands, end=12.0)
+    if later == "commands":
+        made.commands["/cmd_vel"] = [made.log(0.1 * tick) for tick in range(120)]
+    if later == "scans":
+        made.hears("/scan", "laser", begin=8.0, end=12.0)
+    assert found(made, "edge-stopped").severity is severity
+
+
 def test_all_gaps_of_a_robots_pose_are_counted():
     made = robot(odometry=False)
     for begin, end in ((0.0, 2.0), (3.5, 5.0), (7.0, 8.0)):

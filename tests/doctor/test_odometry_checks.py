@@ -12,6 +12,7 @@ from rosbags.typesys import Stores, get_typestore
 
 from tests.doctor.judged import found, ids
 from tests.doctor.robots import NO_TURN, Robot, drives, robot, stands
+from tests.recordings.writers import ROS1
 from tftool import open_recording
 from tftool.doctor.evidence import evidence_of
 from tftool.doctor.findings import Severity
@@ -147,3 +148,31 @@ def test_a_localiser_that_takes_back_the_odometry_is_told():
     made = robot()
     made.moving("map", "odom", 10.0, lambda t: (-0.5 * t, 0.0, 0.0, *NO_TURN))
     assert "although it goes 2.00 m in odom" in found(made, "odometry-cancelled").message
+
+
+def test_commands_after_the_last_transform_are_read_unless_all_are_zero(tmp_path):
+    path = tmp_path / "run.bag"
+    twist, tf = "geometry_msgs/msg/Twist", "tf2_msgs/msg/TFMessage"
+    made = {name.split("/")[-1]: ROS1.types[name] for name in ROS1.types}
+    zero, ahead = made["Vector3"](0.0, 0.0, 0.0), made["Vector3"](0.2, 0.0, 0.0)
+    turn = made["Quaternion"](0.0, 0.0, 0.0, 1.0)
+    with Writer(path) as writer:
+        frames = writer.add_connection("/tf", tf, typestore=ROS1)
+        wheels = writer.add_connection("/cmd_vel", twist, typestore=ROS1)
+        arm = writer.add_connection("/arm/cmd_vel", twist, typestore=ROS1)
+        for number in range(200, 400):
+            log = number * 10**8
+            if number < 300:
+                at = ROS1.types["builtin_interfaces/msg/Time"](*divmod(log, 10**9))
+                pose = made["Transform"](made["Vector3"](0.01 * number, 0.0, 0.0), turn)
+                header = made["Header"](number, at, "odom")
+                message = ROS1.types[tf]([made["TransformStamped"](header, "base_link", pose)])
+                writer.write(frames, log, ROS1.serialize_ros1(message, tf))
+            for connection, linear in ((wheels, ahead), (arm, zero)):
+                command = ROS1.serialize_ros1(made["Twist"](linear, zero), twist)
+                writer.write(connection, log, command)
+    with open_recording(path) as recording:
+        evidence = evidence_of(recording)
+    assert {topic: len(times) for topic, times in evidence.commands.items()} == {"/cmd_vel": 200}
+    (stopped,) = [one for one in judge(evidence).findings if one.id == "edge-stopped"]
+    assert "/cmd_vel goes on for 10.00 s, with 100 commands to move" in stopped.evidence[0]

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tftool.base.errors import DescriptionError, InputError, without_frames
-from tftool.base.stamps import Stamp, as_seconds
+from tftool.base.stamps import Stamp, as_seconds, seconds
 from tftool.buffer.buffer import Buffer
 from tftool.frames.frames import Frames
 from tftool.frames.transform_log import TransformLog
@@ -62,6 +62,8 @@ class Evidence:
         negative: For each Odometry topic with negative variances: number of messages with negative
             variances, number of all messages, and least variance.
         mounts: Sensors' mounts (static poses) measured from motion; None if not requested.
+        commands: For each topic of commands without headers, such as cmd_vel: log times of the
+            commands to move, nanoseconds; empty unless all moving transforms end early.
     """
 
     name: str
@@ -84,6 +86,7 @@ class Evidence:
     odometry: Transforms | None = None
     negative: Mapping[str, tuple[int, int, float]] = field(default_factory=dict)
     mounts: "tuple[MeasuredMount, ...] | None" = None
+    commands: Mapping[str, Stamps] = field(default_factory=dict)
 
     @property
     def is_generated(self) -> bool:
@@ -242,7 +245,35 @@ def _evidence_of_source(
         damage=tuple(dict.fromkeys((*source.damage, *transforms.damage))),
         start=source.start,
         end=source.end,
+        commands=_commands(source, transforms),
     )
+
+
+def _commands(source: Recorded, transforms: Transforms) -> dict[str, Stamps]:
+    """Return the log times of commands to move; see the attribute `commands` of `Evidence`."""
+    moving = [
+        edge for edge in transforms.edges if (edge.records[:, 1:] != edge.records[:1, 1:]).any()
+    ]
+    last = max((int(transforms.log_times_of(edge).max()) for edge in moving), default=source.end)
+    topics = [
+        topic.name
+        for topic in source.topics
+        if topic.type in _COMMANDS and topic.count and topic.encoding in ("cdr", "ros1")
+    ]
+    if source.end - last < seconds(1) or not topics:
+        return {}
+    times: dict[str, list[int]] = {}
+    for message in source.messages(topics):
+        # A Twist has six numbers of 8 bytes, an AckermannDrive five of 4 bytes.
+        size, kind = (48, "<f8") if len(message.payload) >= 48 else (20, "<f4")
+        payload = message.payload[-size:]
+        if len(payload) == size and np.frombuffer(payload, kind).any():
+            times.setdefault(message.sender.topic, []).append(message.log_time)
+    return {topic: np.sort(np.array(found, dtype=np.int64)) for topic, found in times.items()}
+
+
+_COMMANDS = frozenset({"geometry_msgs/Twist", "ackermann_msgs/AckermannDrive"})
+"""Types of commands to move, which have no header."""
 
 
 def _negative_variances(
@@ -285,6 +316,10 @@ def within(evidence: Evidence, begin: Stamp, end: Stamp) -> Evidence:
         odometry=None if evidence.odometry is None else _cut(evidence.odometry, begin, end),
         start=begin,
         end=end,
+        commands={
+            topic: times[(times >= begin) & (times <= end)]
+            for topic, times in evidence.commands.items()
+        },
     )
 
 

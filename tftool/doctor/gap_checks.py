@@ -54,19 +54,27 @@ def holes(track: Track, limits: Limits) -> list[tuple[int, int]]:
     rule="the last sample of a transform arrives more than {periods:g} periods, {seconds:g} s and "
     "a share of {share:g} of the recording before its end, while other streams continue. The "
     "transform has {samples:g} samples or more, and is not a detection of a camera without "
-    "child frames. A warning if all moving transforms end; a note if a player of recordings "
-    "sent them and no /clock continues. A warning if the recording has no later scan, point "
+    "child frames. A warning if all moving transforms end. Other streams are also {commands:g} or "
+    "more commands to move without a header, such as Twist. A note if a player of recordings sent "
+    "the transforms and no /clock continues, and if all messages of the robot end too, and only "
+    "constant transforms go on. A warning if the recording has no later scan, point "
     "cloud or range in the frame or below it. In this case, a note for a frame without "
     "children, and for a part of a robot that did not move or has been silent for less than 60 s",
     headline="{where} {concerned:stops|stop} before the end",
     detail="{edge}: last stamp {last:moment}, which arrived {before:span} before the end; came "
-    "every {period:span}",
+    "every {period:span}{beside}",
     consequence="lookups through it refuse from then on",
     causes=(
         "a node that crashed",
         "a lost sensor",
     ),
-    limits={"periods": STOPPED_PERIODS, "seconds": 2.0, "share": 0.05, "samples": 5},
+    limits={
+        "periods": STOPPED_PERIODS,
+        "seconds": 2.0,
+        "share": 0.05,
+        "samples": 5,
+        "commands": 10,
+    },
     needs=("log times",),
     because_of=(
         ("stream", "clock-mixture"),
@@ -95,7 +103,9 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
             continue
         # If all links end at once, as when a session's host exits, it is not the fault of one link.
         all_end = latest - last <= least
-        if all_end and last - model.start > _AT_ONCE * length:
+        driven = _commands_after(model, last, least, limits) if all_end else ""
+        is_soon = last - model.start <= _AT_ONCE * length
+        if all_end and not is_soon and not driven:
             continue
         cure = f"check whether its publisher still runs: `{{publishers}} {track.topics[0]}`"
         is_played = any(is_player(node) for node in track.nodes)
@@ -108,6 +118,8 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
             severity = Severity.WARNING
         elif not any(other.logs[-1] - last > least for other in model.dynamic):
             severity = Severity.NOTE if is_played and all_end else Severity.WARNING
+        elif not is_soon and _is_shut_down(model, alive, last + least):
+            severity = Severity.NOTE
         elif model.evidence.recorded and not _needed_in(model, track, ended, NEVER):
             is_part = model.is_minor(track) or (
                 len(model.below(track.child)) == 1 and last_part(track.child) not in BASES
@@ -121,6 +133,7 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
                 "last": ended,
                 "before": before,
                 "period": track.period,
+                "beside": driven,
                 "below": sorted(model.below(track.child)),
             },
             since=last,
@@ -129,6 +142,32 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
             severity=severity,
             fixes=(Fix(cure),),
         )
+
+
+def _commands_after(model: Model, last: int, least: float, limits: Limits) -> str:
+    """Return a clause about commands that go on after the last transform; "" without commands."""
+    told = ""
+    for topic, times in model.evidence.commands.items():
+        later = times[times > last]
+        if len(later) >= limits["commands"] and later[-1] - last > least:
+            goes_on = span(int(later[-1]) - last)
+            told += f"; {topic} goes on for {goes_on}, with {len(later):,} commands to move"
+    return told
+
+
+def _is_shut_down(model: Model, alive: "list[Track | Heard]", end: float) -> bool:
+    """Whether all topics with headers end before a log time, and later transforms are constant.
+
+    Args:
+        model: Model of the evidence.
+        alive: The moving edges, and the topics with headers that the robot itself sends.
+        end: The log time.
+    """
+    later = [one for one in alive if one.logs[-1] > end]
+    heard = any(isinstance(one, Heard) for one in alive)
+    commands = any(len(one) and one[-1] > end for one in model.evidence.commands.values())
+    constant = all(isinstance(one, Track) and not one.moves for one in later)
+    return heard and constant and not commands
 
 
 def _is_used(model: Model, track: Track) -> bool:
@@ -149,7 +188,7 @@ def _needed_in(model: Model, track: Track, begin: int, end: int) -> int:
     )
 
 
-_REPORTS = ("rosgraph_msgs/", "rcl_interfaces/", "diagnostic_msgs/")
+_REPORTS = ("rosgraph_msgs/", "rcl_interfaces/", "diagnostic_msgs/", "bond/")
 """Packages of messages about nodes, which go on when the data of a robot is over."""
 
 _SILENT = 60 * NANOSECONDS
