@@ -826,3 +826,35 @@ def test_lost_samples_of_a_fast_transform_are_a_note():
                 pose = (0.0, 0.0, 0.0, *turned(math.radians(5.0 * tick)))
                 made.sent("odom", "base_link", at, pose)
         assert found(made, "gap").severity is severity
+
+
+def corrected_robot(node: str) -> Robot:
+    """Return a robot of ROS 1 whose first pose for each stamp is wrong."""
+    made = robot(odometry=False)
+    made.kind = "ROS 1 bag"
+    for tick in range(160):
+        at = tick * 0.05
+        for step, wrong in enumerate((0.04 if tick % 4 == 1 else 0.0, 0.0, 0.0)):
+            pose = (0.01 * at + wrong, 0.0, 0.0, *NO_TURN)
+            made.sent("odom", "base_link", at + 0.01 * step, pose, node=node, stamp=made.log(at))
+    return made
+
+
+def test_one_connection_for_the_transforms_of_several_nodes_names_no_publisher():
+    for ahead, nodes in ((0.1, ()), (0.0, ("/first",))):
+        made = corrected_robot("/first")
+        made.moving("base_link", "camera", 10, stands, offset=ahead, node="/first")
+        finding = found(made, "repeated-stamp")
+        assert finding.publishers == nodes
+        assert ("sent by" in finding.evidence[0]) is bool(nodes)
+
+
+def test_a_played_recording_names_no_publisher():
+    assert found(corrected_robot("/play_1700000000000000000"), "repeated-stamp").publishers == ()
+
+
+def test_repeated_stamps_tell_how_far_the_values_differ_and_which_jumps_they_cause():
+    told = found(corrected_robot("/filter"), "repeated-stamp").evidence[0]
+    assert "40 of them with a value that differs by more than 1 mm" in told
+    assert "at most 40 mm" in told
+    assert "out and back by 10 mm or more 40 times, with the last one 0 times" in told

@@ -148,7 +148,7 @@ def is_corrected(track: Track, limits: Limits) -> bool:
     Some filters send such corrections. With two publishers, the samples of a stamp would return to
     an earlier pose.
     """
-    if len(track.publishers) != 1 or not track.nodes:
+    if len(track.publishers) != 1:
         return False
     at = track.sorted_stamps
     firsts = np.flatnonzero(at[2:] == at[:-2])

@@ -1,5 +1,6 @@
 """Evidence for a diagnosis, collected from a recording, a buffer or a session."""
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -11,6 +12,7 @@ import numpy.typing as npt
 from tftool.base.errors import DescriptionError, InputError, without_frames
 from tftool.base.stamps import Stamp, as_seconds, seconds
 from tftool.buffer.buffer import Buffer
+from tftool.doctor.stamp_stream import last_part
 from tftool.frames.frames import Frames
 from tftool.frames.transform_log import TransformLog
 from tftool.recordings.container_reader import Recorded
@@ -350,6 +352,57 @@ def _cut_headers(headers: Headers, begin: Stamp, end: Stamp) -> Headers:
         log_times=headers.log_times[inside],
         frames=headers.frames[inside],
     )
+
+
+def without_doubtful_names(transforms: Transforms) -> Transforms:
+    """Return transforms without node names, if the recording does not name their publishers.
+
+    `rosbag filter` and similar programs write one connection for each topic, with the name of the
+    first node. A player is the only node if all transforms come from another recording.
+    """
+    publishers = transforms.publishers
+    named = {one.node for one in publishers if one.node}
+    if not named or not transforms.edges:
+        return transforms
+    if all(map(is_player, named)) or _has_merged_nodes(transforms):
+        publishers = tuple(replace(one, node="") for one in publishers)
+        return replace(transforms, publishers=publishers)
+    return transforms
+
+
+def _has_merged_nodes(transforms: Transforms) -> bool:
+    """Whether a static_transform_publisher of ROS 1 seems to send other transforms as well.
+
+    It sends one constant transform alone, and dates it ahead by the period.
+    """
+    edges_of = np.zeros(len(transforms.publishers), dtype=np.intp)
+    for edge in transforms.edges:
+        if not edge.static:
+            edges_of += np.bincount(transforms.senders_of(edge), minlength=len(edges_of)) > 0
+    messages = np.concatenate([edge.messages for edge in transforms.edges])
+    sizes = np.bincount(messages, minlength=len(transforms.log_times))
+    for edge in transforms.edges:
+        senders = transforms.senders_of(edge)
+        if edge.static or len(senders) < _REPEATS or (senders != senders[0]).any():
+            continue
+        if edges_of[senders[0]] < 2 or not transforms.publishers[senders[0]].node:
+            continue
+        if (sizes[edge.messages] > 1).any() or (edge.records[:, 1:] != edge.records[0, 1:]).any():
+            continue
+        period = float(np.median(np.diff(edge.stamps)))
+        ahead = float(np.median(edge.stamps - transforms.log_times_of(edge)))
+        if period > 0.0 and abs(ahead - period) < 0.1 * period:
+            return True
+    return False
+
+
+_REPEATS = 10
+"""Minimum number of samples that show how a transform is dated."""
+
+
+def is_player(node: str) -> bool:
+    """Whether a node has the name of `rosbag play` or `ros2 bag play`."""
+    return re.fullmatch(r"play_\d{15,}|rosbag2_player", last_part(node)) is not None
 
 
 # Evidence of a buffer

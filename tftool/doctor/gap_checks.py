@@ -8,9 +8,10 @@ import numpy as np
 from tftool.base.plain_text import count
 from tftool.base.stamps import NANOSECONDS
 from tftool.doctor.check import checks_of, hit_of
+from tftool.doctor.evidence import is_player
 from tftool.doctor.findings import STOPPED_PERIODS, Area, Fix, Hit, Severity
 from tftool.doctor.missing_joins import is_world
-from tftool.doctor.model import WARM_UP, Limits, Model, is_player
+from tftool.doctor.model import WARM_UP, Limits, Model
 from tftool.doctor.stamp_stream import (
     BASES,
     NEVER,
@@ -108,7 +109,7 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
         if all_end and not is_soon and not driven:
             continue
         cure = f"check whether its publisher still runs: `{{publishers}} {track.topics[0]}`"
-        is_played = any(is_player(node) for node in track.nodes)
+        is_played = model.was_played and all(map(is_player, track.nodes))
         if is_played:
             cure = "a player published it: look whether the played recording ends there"
         severity, ended = None, int(track.stamps.max())

@@ -3,17 +3,16 @@
 The checks read this model. The module `evidence` reads the files.
 """
 
-import re
 from collections import defaultdict
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 
 from tftool.base.common_ancestor import climbed, up_to_join
 from tftool.base.stamps import CACHE_TIME, SIMULATED_BELOW, Duration, Stamp, seconds
-from tftool.doctor.evidence import Evidence
+from tftool.doctor.evidence import Evidence, is_player, without_doubtful_names
 from tftool.doctor.stamp_stream import BASES, JOINT_STATES, WILD, Heard, Stream, Track, last_part
 from tftool.doctor.wording import is_ros1, ros_words
 from tftool.recordings.contract import Stamps
@@ -55,9 +54,6 @@ class Settings:
 
 _ONE_CLOCK = seconds(0.05)
 """Maximum difference between two delays of one clock, nanoseconds."""
-
-_LEAD = 2e7
-"""Nanoseconds after its arrival that a stamp must lie to be dated ahead on purpose."""
 
 _AHEAD = seconds(0.1)
 """Maximum time by which a static_transform_publisher of ROS 1 dates ahead: its usual period."""
@@ -134,6 +130,7 @@ class Model:
     """
 
     def __init__(self, evidence: Evidence, settings: Settings | None = None) -> None:
+        evidence = replace(evidence, transforms=without_doubtful_names(evidence.transforms))
         self.evidence = evidence
         self.settings = settings or Settings()
         tracks = [Track(edge, evidence.transforms) for edge in evidence.transforms.edges]
@@ -181,23 +178,6 @@ class Model:
     def has_named_publishers(self) -> bool:
         """Whether two or more nodes with known names publish transforms."""
         return len({one.node for one in self.evidence.transforms.publishers if one.node}) > 1
-
-    @cached_property
-    def unproved_nodes(self) -> frozenset[str]:
-        """Nodes under whose name a tool may have recorded the transforms of other nodes, too.
-
-        Constant transforms dated ahead come from tf's static_transform_publisher. Of one node, only
-        robot_state_publisher sends such transforms beside moving ones that are not dated ahead.
-        """
-        ahead: set[str] = set()
-        others: set[str] = set()
-        for track in self.dynamic:
-            is_ahead = track.median_latency < -_LEAD
-            if is_ahead and not track.moves:
-                ahead.update(track.nodes)
-            elif track.moves and not is_ahead:
-                others.update(track.nodes)
-        return frozenset(node for node in ahead & others if "state_publisher" not in node)
 
     @cached_property
     def was_played(self) -> bool:
@@ -584,11 +564,6 @@ class Model:
         stamps, logs = (np.concatenate(columns) for columns in zip(*kept, strict=True))
         order = np.argsort(logs, kind="stable")
         return np.maximum.accumulate(stamps[order]), logs[order]
-
-
-def is_player(node: str) -> bool:
-    """Whether a node has the name of `rosbag play` or `ros2 bag play`."""
-    return re.fullmatch(r"play_\d{15,}|rosbag2_player", last_part(node)) is not None
 
 
 def _copies(one: Stream, other: Stream) -> bool:

@@ -9,8 +9,8 @@ from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, seconds
 from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Fact, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
-from tftool.doctor.stamp_stream import Heard, Track, unsorted_share
-from tftool.doctor.wording import is_ros1
+from tftool.doctor.stamp_stream import Heard, Places, Track, unsorted_share
+from tftool.doctor.wording import is_ros1, metres
 from tftool.recordings.contract import Stamps, percentile
 
 check = checks_of(Area.CLOCKS)
@@ -145,7 +145,7 @@ _FROZEN = {"times": 10, "seconds": 1.0}
     headline="{where} {concerned:repeats|repeat} stamps",
     detail="{edge}: {count} of {of} samples repeat a stamp, {different} of them with a value that "
     "differs by more than {least:m} or {least_turn:deg} (at most {worst:m} and "
-    "{most_turned:deg}){by}",
+    "{most_turned:deg}){spikes}{by}",
     consequence="{so}",
     fixes=(
         Fix("look at how these stamps are made: `{publishers} {tf_topic}` lists the publishers"),
@@ -193,7 +193,6 @@ def repeated_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
                 so = "tf2 keeps the first; from noetic on it prints TF_REPEATED_DATA for each"
             if warns:
                 so = "tf2 drops them and prints TF_REPEATED_DATA for each"
-            nodes = [node for node in track.nodes if node not in model.unproved_nodes]
             yield hit_of(
                 track,
                 {
@@ -204,13 +203,47 @@ def repeated_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
                     "least_turn": limits["radians"],
                     "worst": float(apart.max()),
                     "most_turned": float(turned.max()),
+                    "spikes": _avoidable_spikes(track) if warns and different else "",
                     "so": so,
-                    "by": f"; sent by {', '.join(nodes)}" if nodes else "",
+                    "by": f"; sent by {', '.join(track.nodes)}" if track.nodes else "",
                 },
                 since=int(track.logs[some[told]].min()),
                 count=count,
                 severity=Severity.NOTE if few or is_silent or model.is_minor(track) else None,
             )
+
+
+def _avoidable_spikes(track: Track) -> str:
+    """Return a clause about steps out and back that the last sample of each stamp does not have.
+
+    tf2 of ROS 1 noetic keeps the first sample of a stamp.
+    """
+    is_new = np.diff(track.sorted_stamps) > 0
+    first = _count_spikes(track, track.by_stamp[np.append(True, is_new)])
+    last = _count_spikes(track, track.by_stamp[np.append(is_new, True)])
+    if first < 3 or first < 2 * last:
+        return ""
+    return (
+        f"; with the first sample of each stamp, which tf2 keeps, the frame jumps out and back by "
+        f"{metres(_SPIKE)} or more {first} times, with the last one {last} times"
+    )
+
+
+def _count_spikes(track: Track, places: Places) -> int:
+    """Count the samples that lie `_SPIKE` or more from both neighbours, which are near each other.
+
+    Args:
+        track: The edge's samples.
+        places: Indices of the samples to compare, in order, shape (n,).
+    """
+    strides = track.apart(places[1:], places[:-1])
+    least = np.minimum(strides[1:], strides[:-1])
+    back = track.apart(places[2:], places[:-2])
+    return int(np.count_nonzero((least >= _SPIKE) & (back < 0.5 * least)))
+
+
+_SPIKE = 0.01
+"""Minimum length of a step out and back, metres."""
 
 
 @check(
