@@ -145,8 +145,8 @@ def values_at_one_stamp(track: Track, limits: Limits) -> Hit | None:
 def is_corrected(track: Track, limits: Limits) -> bool:
     """Whether one publisher corrects its poses: a later pose with the same stamp replaces a pose.
 
-    Some filters send such corrections. With two publishers, the samples of a stamp would return to
-    an earlier pose.
+    Some filters send such corrections. If two publishers had sent the poses, a pose that was
+    replaced would appear again at the same stamp.
     """
     if len(track.publishers) != 1:
         return False

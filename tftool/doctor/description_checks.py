@@ -123,7 +123,7 @@ def links_below(robot: Robot, joint: RobotJoint) -> list[str]:
     Severity.WARNING,
     rule="a link of the robot description is in no transform of the whole recording. A note if no "
     "message is in the frame of the link",
-    headline="{where} of the robot description: in no transform",
+    headline="no transform contains {where} of the robot description",
     detail="{frame}: {reason}",
     consequence="nothing can be placed in these frames",
     causes=(

@@ -101,7 +101,13 @@ def _changes(model: Model, turns: int, history: int) -> str:
 
 
 def _mixed_kinds(model: Model, child: str, *, starts_static: bool) -> str:
-    """Return the consequence of a frame that is sent as static and as moving."""
+    """Return the sentence about failing lookups of a frame that is sent as static and as moving.
+
+    Args:
+        model: The recording.
+        child: The frame.
+        starts_static: Whether the first of the transforms was static.
+    """
     if not is_ros1(model.evidence):
         return f"each change of kind clears the history of {child}: lookups in the past fail"
     if starts_static:

@@ -306,7 +306,8 @@ def in_words(text: str, words: Mapping[str, str] = _BOTH) -> str:
 
     Args:
         text: The text.
-        words: Commands and settings, by placeholder; by default of both ROS 1 and ROS 2.
+        words: Mapping from placeholder to command or setting. The default names both those of
+            ROS 1 and those of ROS 2.
     """
     for name, word in words.items():
         text = text.replace(f"{{{name}}}", word)

@@ -269,7 +269,7 @@ class _Solver:
             raise CalibrationRefused(
                 f"{problem.a.name} turns by {math.degrees(pairs.largest):.1f}° at most within ten "
                 "seconds: without rotation the translation cannot be determined.",
-                f"turn by at least 30° about two axes; a vehicle: {FIGURE}",
+                f"turn by at least 30° about two axes; with a vehicle, {FIGURE}",
             )
         turn, weights = kabsch(pairs)
         scatter = (pairs.turns_a * weights[:, None]).T @ pairs.turns_a / weights.sum()

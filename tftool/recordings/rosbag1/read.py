@@ -315,7 +315,7 @@ class Rosbag1(ChunkedReader):
             self._look_at(chunk, *record_head(self, chunk.position))
 
     def _entries(self, chunk: Chunk, chosen: Container[int]) -> list[tuple[int, Entries]]:
-        """Return number and index entries of each chosen connection in a chunk."""
+        """Return, for each chosen connection in a chunk, its number and its index entries."""
         counts = chunk.counts or {}
         # One read for all index records: 64 bytes for each header, 12 for each message.
         expected = len(counts) * 64 + 12 * sum(counts.values()) + 64
