@@ -398,8 +398,16 @@ def test_seconds_of_a_slow_network_are_no_part_of_a_clock_that_was_never_set():
     found_shift = found(made, "shifted-clock")
     assert found_shift.message.startswith("all stamps are 184 days before their reception")
     assert "3 of 3 streams" in found_shift.evidence[0]
+    # The two parts of one robot do not fit together.
+    assert ids(made) == ["stale-stamp"]
+    late = found(made, "stale-stamp")
+    assert {child for _, child in late.edges} == {"arm", "hand"}
+    assert late.fixes[0].text.startswith("base_link in odom of the same tree arrived in time")
+    # A detector takes its time.
+    made = Robot(log_from=START + 184 * 86_400)
+    made.moving("odom", "base_link")
+    made.moving("base_link", "marker_7", end=LASTS - 2.8, latency=2.8)
     assert ids(made) == []
-    assert {child for _, child in found(made, "stale-stamp").edges} == {"arm", "hand"}
 
 
 def test_a_map_in_odometry_may_jump_as_odometry_in_a_map():

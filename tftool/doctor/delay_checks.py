@@ -7,6 +7,7 @@ import numpy as np
 from tftool.base.stamps import NANOSECONDS, Stamp, seconds
 from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import STALE_AFTER, Area, Fact, Fix, Hit, Severity
+from tftool.doctor.gap_checks import is_detection
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_checks import COMPARE_CLOCKS, stands_still
 from tftool.doctor.stamp_stream import Heard, Mask, Places, Track, last_part
@@ -23,7 +24,8 @@ check = checks_of(Area.CLOCKS)
     "messages. A warning if another topic shows where the delay arises: a topic with the same "
     "stamps, or the topic from which the late topic is computed, arrives in time. A warning "
     "also for a transform with a latency above {odometry:g} s whose poses arrive in time in "
-    "Odometry messages. A warning also if one sample in ten of a moving transform is later "
+    "Odometry messages. A warning also for a steadily late transform if a moving transform in the "
+    "same tree arrives in time. A warning also if one sample in ten of a moving transform is later "
     "than {tenth:g} s and {often:g} times the median, while other data arrives in time; and "
     "if one in twenty of regular poses is later than {burst:g} s and {rarely:g} times the median. "
     "Not reported if all late data arrives within 0.2 s",
@@ -244,9 +246,35 @@ def _late(model: Model, stream: "Track | Heard") -> Hit:
                 "messages wait on their way, and no clock is wrong"
             )
     facts = {"what": stream.name, "late": stream.median_latency, "varies": varies, **_MEDIAN}
+    if isinstance(stream, Track) and not shown and 2 * (high - low) < stream.median_latency:
+        prompt = _prompt_beside(model, stream)
+        if prompt:
+            shown = f"{several(prompt, 3)} of the same tree arrived in time: {COMPARE_CLOCKS.text}"
     if not shown:
         return hit_of(stream, facts, fixes=() if varies else (COMPARE_CLOCKS,))
     return hit_of(stream, facts, severity=Severity.WARNING, fixes=(Fix(shown),))
+
+
+def _prompt_beside(model: Model, track: Track) -> list[str]:
+    """Return the names of moving transforms that arrive in time, in the tree of a late edge.
+
+    The result is empty for a localiser, and for objects that a camera detects: they take time.
+    """
+    above = [
+        one for one in model.above(track.child) if 2 * one.median_latency > track.median_latency
+    ]
+    if track.is_localisation or any(is_detection(model, one) for one in above[-1:]):
+        return []
+    tree = model.tree_of[track.child]
+    return [
+        one.name
+        for one in model.dynamic
+        if one.moves
+        and not one.is_localisation
+        and len(one.stamps) >= _FEWEST_LATE
+        and one.child in tree.frames
+        and 4 * abs(one.median_latency) < track.median_latency
+    ]
 
 
 def _relayed_late(model: Model, stream: "Track | Heard") -> str:
