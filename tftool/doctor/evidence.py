@@ -373,25 +373,29 @@ def without_doubtful_names(transforms: Transforms) -> Transforms:
 def _has_merged_nodes(transforms: Transforms) -> bool:
     """Whether a static_transform_publisher of ROS 1 seems to send other transforms as well.
 
-    It sends one constant transform alone, and dates it ahead by the period.
+    It sends one constant transform alone, and dates it ahead by the period. Nodes of a simulator
+    date all their transforms alike, so one of the others must be dated in the past.
     """
-    edges_of = np.zeros(len(transforms.publishers), dtype=np.intp)
-    for edge in transforms.edges:
-        if not edge.static:
-            edges_of += np.bincount(transforms.senders_of(edge), minlength=len(edges_of)) > 0
+    moving = [edge for edge in transforms.edges if not edge.static and len(edge) >= _REPEATS]
+    ahead = [float(np.median(edge.stamps - transforms.log_times_of(edge))) for edge in moving]
+    late: set[int] = set()
+    for edge, by in zip(moving, ahead, strict=True):
+        if by < 0.0:
+            late.update(np.unique(transforms.senders_of(edge)).tolist())
+    if not late:
+        return False
     messages = np.concatenate([edge.messages for edge in transforms.edges])
     sizes = np.bincount(messages, minlength=len(transforms.log_times))
-    for edge in transforms.edges:
+    for edge, by in zip(moving, ahead, strict=True):
         senders = transforms.senders_of(edge)
-        if edge.static or len(senders) < _REPEATS or (senders != senders[0]).any():
+        sender = int(senders[0])
+        if by <= 0.0 or sender not in late or not transforms.publishers[sender].node:
             continue
-        if edges_of[senders[0]] < 2 or not transforms.publishers[senders[0]].node:
-            continue
-        if (sizes[edge.messages] > 1).any() or (edge.records[:, 1:] != edge.records[0, 1:]).any():
+        if (senders != sender).any() or (sizes[edge.messages] > 1).any():
             continue
         period = float(np.median(np.diff(edge.stamps)))
-        ahead = float(np.median(edge.stamps - transforms.log_times_of(edge)))
-        if period > 0.0 and abs(ahead - period) < 0.1 * period:
+        is_constant = not (edge.records[:, 1:] != edge.records[0, 1:]).any()
+        if is_constant and abs(by - period) < 0.1 * period:
             return True
     return False
 
