@@ -104,6 +104,20 @@ def test_a_mount_that_odometry_displaced_is_mended_at_the_end_of_the_odometry():
     assert doctor.fixes[0].text == found.remedies[0].text
 
 
+def test_ros_1_stores_a_static_and_moving_frame_as_the_kind_that_came_first():
+    for kind, begin, answers in (
+        ("ROS 1 bag", -1.0, True),
+        ("ROS 1 bag", 1.0, False),
+        ("rosbag2", -1.0, False),
+    ):
+        made = robot(laser=False)
+        made.kind = kind
+        made.static("base_link", "laser", at=begin)
+        made.moving("base_link", "laser", 2.0)
+        # The newest sample of the laser is of 4.0 s.
+        assert asked(made, "base_link", "laser", 4.25).available is answers
+
+
 def test_waiting_so_long_answers():
     made = robot(odometry=False, scans=False)
     made.moving("odom", "base_link", hz=5, latency=0.25)

@@ -743,18 +743,19 @@ def test_a_change_between_two_clocks_is_no_step_of_a_localiser():
 
 
 def test_a_kind_that_changes_once_is_a_warning_and_ros_1_keeps_the_first():
-    for kind, so in (
-        ("rosbag2", "clears the history of laser"),
-        ("ROS 1 bag", "keeps the kind that comes first"),
+    for kind, begin, so in (
+        ("rosbag2", -1.0, "clears the history of laser"),
+        ("ROS 1 bag", -1.0, "here the static one (at 0.00 s): every lookup of laser gets"),
+        ("ROS 1 bag", 1.0, "here the moving one (at 0.00 s): the static pose of laser counts as"),
     ):
         made = robot(laser=False)
         made.kind = kind
-        made.static("base_link", "laser", (0.1, 0.0, 0.2, *NO_TURN), at=-1.0)
+        made.static("base_link", "laser", (0.1, 0.0, 0.2, *NO_TURN), at=begin)
         made.moving("base_link", "laser", 10.0, lambda _t: (0.1, 0.0, 0.5, *NO_TURN))
         finding = found(made, "static-and-dynamic")
         assert finding.severity is Severity.WARNING
         assert so in finding.consequence
-        assert "with poses 0.30 m apart" in finding.evidence[0]
+        assert "0.30 m apart: moving 0.1 0 0.5, static 0.1 0 0.2" in finding.evidence[0]
         assert ("the kind changes once" in finding.evidence[0]) is (kind == "rosbag2")
 
 

@@ -252,6 +252,10 @@ class Model:
             edges.setdefault(track.child, []).append(track)
         return edges
 
+    def first_of(self, child: str) -> Track:
+        """Return the edge to a child that arrived first; tf2 of ROS 1 keeps its kind for ever."""
+        return min(self.edges_above[child], key=lambda track: int(track.logs[0]))
+
     @cached_property
     def parents(self) -> dict[str, Track]:
         """Mapping from each child's name to the edge from the child's newest parent."""

@@ -134,6 +134,14 @@ class Track(Stream):
         self._edge = edge
         self._transforms = transforms
 
+    def stored_as(self, *, static: bool) -> "Track":
+        """Return the track as a listener has it that stores the edge as static or as moving."""
+        if static is self.static:
+            return self
+        stored = Track(self._edge, self._transforms)
+        stored.static, stored.lap, stored.arrivals = static, self.lap, self.arrivals
+        return stored
+
     @property
     def edge(self) -> tuple[str, str]:
         """Names of the parent and the child frame."""

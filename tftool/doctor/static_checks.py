@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from tftool.base.stamps import NANOSECONDS
+from tftool.base.stamps import NANOSECONDS, as_seconds
 from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.conflicts import find_publishers
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
@@ -22,7 +22,7 @@ check = checks_of(Area.PUBLISHERS)
     "static-and-dynamic",
     Severity.ERROR,
     rule="a frame is the child of a static transform and of a moving transform. A warning if the "
-    "kind changes once",
+    "kind changes once, and in ROS 1, which keeps the first kind",
     headline="{child} is sent on /tf and on /tf_static",
     detail="moving: {moving}; static: {static}{apart}{changes}",
     consequence="{so}",
@@ -66,20 +66,24 @@ def static_and_dynamic(model: Model, limits: Limits) -> Iterator[Hit]:
                 "history": history,
                 "changes": _changes(model, len(turns), history),
                 "apart": _two_mounts(moving[child][0], statics[0]) if is_one_edge else "",
-                "so": _mixed_kinds(model, child, starts_static=bool(kinds[order][0])),
+                "so": _mixed_kinds(model, child),
             },
-            severity=Severity.WARNING if len(turns) < 2 else None,
+            severity=Severity.WARNING if len(turns) < 2 or is_ros1(model.evidence) else None,
             fixes=(fix,),
             alone=True,
         )
 
 
 def _two_mounts(track: Track, static: Track) -> str:
-    """Return the distance between the poses of two constant transforms of one edge, as a clause."""
+    """Return the different poses of two constant transforms of one edge, as a clause."""
     if track.moves:
         return ""
-    apart = float(np.linalg.norm(track.translations[-1] - static.translations[-1]))
-    return f", with poses {metres(apart)} apart" if apart > _SAME_MOUNT else ""
+    poses = [one.translations[-1] for one in (track, static)]
+    apart = float(np.linalg.norm(poses[0] - poses[1]))
+    if apart <= _SAME_MOUNT:
+        return ""
+    moving, fixed = (" ".join(f"{n:.4g}" for n in pose) for pose in poses)
+    return f", with poses {metres(apart)} apart: moving {moving}, static {fixed}"
 
 
 _SAME_MOUNT = 5e-4
@@ -100,22 +104,19 @@ def _changes(model: Model, turns: int, history: int) -> str:
     return f"; the kind changes {changes}, at most {span(history)} of history are kept"
 
 
-def _mixed_kinds(model: Model, child: str, *, starts_static: bool) -> str:
-    """Return the sentence about failing lookups of a frame that is sent as static and as moving.
-
-    Args:
-        model: The recording.
-        child: The frame.
-        starts_static: Whether the first of the transforms was static.
-    """
+def _mixed_kinds(model: Model, child: str) -> str:
+    """Return the consequence of a frame that is sent as static and as moving."""
     if not is_ros1(model.evidence):
         return f"each change of kind clears the history of {child}: lookups in the past fail"
-    if starts_static:
-        return (
-            f"tf2 of ROS 1 keeps the kind that comes first: every lookup of {child} gets the "
-            "newest pose, whatever its time"
-        )
-    return f"tf2 of ROS 1 keeps the kind that comes first: the static pose of {child} expires"
+    first = model.first_of(child)
+    at = f"{as_seconds(int(first.logs[0]) - model.start):.2f} s"
+    kind = "static" if first.static else "moving"
+    so = (
+        f"every lookup of {child} gets the newest pose, whatever its time"
+        if first.static
+        else f"the static pose of {child} counts as one sample, which expires"
+    )
+    return f"tf2 of ROS 1 keeps the kind that reaches it first, here the {kind} one (at {at}): {so}"
 
 
 @check(

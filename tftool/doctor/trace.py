@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from enum import Enum
+from functools import cached_property
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from tftool.buffer.sample import TransformStamped
 from tftool.doctor.findings import Edge
 from tftool.doctor.model import Model, Settings
 from tftool.doctor.stamp_stream import Heard, Track
+from tftool.doctor.wording import is_ros1
 from tftool.geometry.rigid import Transform
 from tftool.recordings.contract import Stamps
 from tftool.recordings.recording import MOST_FRAMES
@@ -213,12 +215,26 @@ class LookupTrace:
 
         If the frame has several parents, the edge with the sample nearest in time is returned.
         """
-        tracks = [t for t in self.model.edges_above.get(frame, ()) if len(t.by_stamp)]
+        tracks = [t for t in self._stored.get(frame, ()) if len(t.by_stamp)]
         if len(tracks) < 2:
             return tracks[0] if tracks else None
         if self.stamp == LATEST or any(track.static for track in tracks):
             return max(tracks, key=lambda track: int(track.logs[-1]))
         return min(tracks, key=lambda track: int(np.abs(track.sorted_stamps - self.stamp).min()))
+
+    @cached_property
+    def _stored(self) -> dict[str, list[Track]]:
+        """Mapping from each child's name to the edges that end at it, as the listener has them.
+
+        tf2 of ROS 1 stores all transforms to a child as the kind that comes first.
+        """
+        edges = self.model.edges_above
+        if not is_ros1(self.model.evidence):
+            return edges
+        return {
+            child: [one.stored_as(static=self.model.first_of(child).static) for one in tracks]
+            for child, tracks in edges.items()
+        }
 
     def link(self, track: Track) -> TracedLink:
         """Return the state of an edge in the buffer, and the lookup's outcome at this edge."""
@@ -262,9 +278,11 @@ class LookupTrace:
         """Return a buffer with all samples that had arrived when the lookup was made."""
         # Allow as many frames as a recording: no frame may be missing because of a limit.
         buffer = Buffer(self.cache, log=_silent, max_frames=MOST_FRAMES)
-        sent = [(track, self.arrived(track)[-MOST_SET:]) for track in self.model.tracks]
+        tracks = [track for above in self._stored.values() for track in above]
+        sent = [(track, self.arrived(track)[-MOST_SET:]) for track in tracks]
         sent = [(track, places) for track, places in sent if len(places)]
-        # If a frame is sent as static and as moving, the kind received last is kept.
+        # If a frame is sent as static and as moving, the kind received last is kept,
+        # in ROS 2.
         for track, places in sorted(sent, key=lambda one: int(one[0].logs[one[1][-1]])):
             if not track.static:
                 buffer.set_transforms(
