@@ -70,6 +70,15 @@ def test_a_clean_report_counts_the_checks():
     )
 
 
+def test_stamps_that_are_days_old_are_not_called_fine():
+    made = Robot(log_from=START + 24 * 86_400)
+    made.moving("odom", "base_link", end=0.02)
+    rows = shown(findings.render(made.judged())).splitlines()
+    (clocks,) = [row for row in rows if "clocks" in row]
+    assert "✓" not in clocks
+    assert clocks.endswith("stamps of tf are 24 days before their arrival")
+
+
 def test_notes_are_counted_and_shown_on_request():
     made = robot()
     made.hears("/image", "laser", kind="sensor_msgs/Image")

@@ -20,7 +20,7 @@ from tftool.doctor.check import Check
 from tftool.doctor.findings import Area, Confidence, Finding, Severity
 from tftool.doctor.judge import CHECKS, Diagnosis
 from tftool.doctor.model import Model
-from tftool.doctor.stamp_stream import Heard, Stream, Track, rate
+from tftool.doctor.stamp_stream import WILD, Heard, Stream, Track, rate
 from tftool.doctor.wording import MOST_IN_LINE, filled, in_words, several, span
 from tftool.drawing import report_view as judgements
 from tftool.recordings.contract import percentile
@@ -199,18 +199,34 @@ def _fine(diagnosis: Diagnosis) -> list[tuple[Area, str]]:
         elif area is Area.CLOCKS and (shift := diagnosis.model.shift) is not None:
             side = "before" if shift.by > 0 else "after"
             told.append((area, f"most stamps are {span(abs(shift.by))} {side} their arrival"))
+        elif area is Area.CLOCKS and (off := _far_off(diagnosis.model)):
+            told.append((area, off))
         else:
             told.append((area, ""))
     return told
 
 
-def _latencies(model: Model, area: Area) -> str:
-    if area is not Area.CLOCKS or not model.evidence.timed:
-        return ""
+def _far_off(model: Model) -> str:
+    """Return a note about the first stream with a latency that no delay explains, else ""."""
+    for name, latency in _medians(model):
+        if abs(latency) > WILD:
+            side = "before" if latency > 0.0 else "after"
+            return f"stamps of {name} are {span(abs(latency))} {side} their arrival"
+    return ""
+
+
+def _medians(model: Model) -> list[tuple[str, float]]:
+    """Return the median latency, nanoseconds, of tf and of up to three topics with positions."""
+    if not model.evidence.timed:
+        return []
     moving = [track.median_latency for track in model.dynamic if not track.is_localisation]
     latencies = [("tf", float(np.median(moving)))] if moving else []
     heard = [one for one in model.heard if one.is_spatial and len(one.stamps)][:3]
-    latencies += [(one.topic, float(one.median_latency)) for one in heard]
+    return latencies + [(one.topic, float(one.median_latency)) for one in heard]
+
+
+def _latencies(model: Model, area: Area) -> str:
+    latencies = _medians(model) if area is Area.CLOCKS else []
     parts = (
         f"{name} dated {span(-latency)} ahead" if latency < 0.0 else f"{name} {span(latency)}"
         for name, latency in latencies
