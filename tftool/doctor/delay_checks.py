@@ -258,12 +258,15 @@ def _late(model: Model, stream: "Track | Heard") -> Hit:
 def _prompt_beside(model: Model, track: Track) -> list[str]:
     """Return the names of moving transforms that arrive in time, in the tree of a late edge.
 
-    The result is empty for a localiser, and for objects that a camera detects: they take time.
+    The result is empty for a localiser, and for objects that a camera detects: they take time. It
+    is empty for an edge on another clock: see `clock-offset`.
     """
     above = [
         one for one in model.above(track.child) if 2 * one.median_latency > track.median_latency
     ]
-    if track.is_localisation or any(is_detection(model, one) for one in above[-1:]):
+    if track.is_localisation or track in model.unshifted:
+        return []
+    if any(is_detection(model, one) for one in above[-1:]):
         return []
     tree = model.tree_of[track.child]
     return [

@@ -64,7 +64,7 @@ def holes(track: Track, limits: Limits) -> list[tuple[int, int]]:
     headline="{where} {concerned:stops|stop} before the end",
     detail="{edge}: last stamp {last:moment}, which arrived {before:span} before the end; came "
     "every {period:span}{beside}",
-    consequence="lookups through it refuse from then on",
+    consequence="lookups at later times fail; the newest transform is an old pose",
     causes=(
         "a node that crashed",
         "a lost sensor",
@@ -112,6 +112,11 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
         is_played = model.was_played and all(map(is_player, track.nodes))
         if is_played:
             cure = "a player published it: look whether the played recording ends there"
+        if driven:
+            cure = (
+                "no transform and no sensor data goes on: look at the robot's drivers at this "
+                "time, and at its link to the recorder"
+            )
         severity, ended = None, int(track.stamps.max())
         clock = model.evidence.clock[1]
         if is_played and all_end and bool((clock > last + least).any()):
