@@ -298,6 +298,17 @@ def test_two_sensors_of_one_clock_are_one_finding():
     assert finding.message == words
 
 
+def test_the_consequence_of_stamps_is_that_of_the_data():
+    made = robot()
+    made.hears("/imu", "laser", 50.0, "sensor_msgs/Imu", latency=-0.4)
+    assert found(made, "clock-offset").consequence.endswith("has to wait 400 ms longer, or fails")
+    for end, told in ((LASTS, "do not use these samples"), (0.0, "at any other time fail")):
+        made = robot()
+        made.moving("base_link", "arm", end=end)
+        made.sent("base_link", "arm", 5.0, stamp=0)
+        assert f"{told}; " in found(made, "zero-stamp").consequence
+
+
 def test_a_scan_that_arrives_one_scan_later_is_on_time():
     made = robot(scans=False)
     made.hears("/scan", "laser", 6.5, latency=0.152)
@@ -372,7 +383,7 @@ def test_no_stamp_that_stands_still_is_to_be_stamped_anew():
     findings = [one for one in made.judged().findings if one.id == "frozen-stamp"]
     assert len(findings) == 2
     assert {one.fixes[0].text for one in findings} == {
-        "look at what its publisher waits for: `ros2 topic info --verbose /tf`"
+        "look at where its publisher takes it from: `ros2 topic info --verbose /tf`"
     }
 
 

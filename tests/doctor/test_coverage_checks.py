@@ -129,8 +129,8 @@ def test_joint_states_without_transforms_of_joints_need_robot_state_publisher():
     made = robot(laser=False)
     made.hears("/joint_states", "", kind="sensor_msgs/JointState")
     finding = found(made, "static-missing")
-    assert "robot_state_publisher did not run" in finding.message
-    assert finding.fixes[0].text.startswith("start robot_state_publisher")
+    assert "no transform of a joint, as without robot_state_publisher" in finding.message
+    assert finding.fixes[0].text.startswith("look whether robot_state_publisher runs")
     assert not any("record /tf" in fix.text for fix in finding.fixes)
     made.moving("base_link", "wheel")
     assert "if so, record /tf" in found(made, "static-missing").fixes[0].text

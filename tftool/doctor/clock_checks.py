@@ -194,7 +194,8 @@ def _example(group: "list[Track | Heard]", simulated: bool) -> int:
         "the recording was played again and recorded anew",
     ),
     needs=("log times",),
-    why="one constant for all streams is a wrong clock, not a fault of a publisher",
+    why="one constant for all streams is a wrong clock or a recording that is played again, not a "
+    "fault of a publisher",
     because_of=(("anything", "time-jump-back"),),
 )
 def shifted_clock(model: Model, limits: Limits) -> Iterator[Hit]:
@@ -211,9 +212,7 @@ def shifted_clock(model: Model, limits: Limits) -> Iterator[Hit]:
             "streams": model.shift.streams,
             "of": model.shift.of,
             "most": "most" if _has_unshifted(model, model.shift) else "all",
-            "live": "a live listener on the recorder's computer refuses all of it"
-            if model.shift.by > 0
-            else "a node on the recorder's computer that asks for its present time gets data of "
+            "live": "a node on the recorder's computer that asks for its present time gets data of "
             "another moment, or none",
         },
         severity=Severity.WARNING if model.shift.by < 0 and not model.was_played else None,
@@ -299,8 +298,7 @@ def _ahead(model: Model, track: Track, ahead: int) -> Hit:
     "hour from the stamps of the messages before and after",
     headline="{where} {concerned:has|have} a stamp that lies {off:span} {side} the others",
     detail="{what}: {count} of {of}, {stamp:dated}",
-    consequence="after a stamp in the future, tf2 drops the transforms that follow, until their "
-    "stamps reach it; tf2 also drops a transform with a stamp that is too far in the past",
+    consequence="{so}",
     fixes=(Fix("look at where its publisher takes the stamps from"),),
     causes=(
         "memory that was never set, or a number read with the wrong bytes",
@@ -330,7 +328,14 @@ def wild_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
             "off": abs(int(off[worst])),
             "side": "ahead of" if off[worst] > 0 else "behind",
         }
-        yield hit_of(one, facts, since=int(one.logs[place]), count=len(places))
+        if isinstance(one, Heard):
+            facts["so"] = "a lookup at such a stamp fails"
+        elif (off > 0).any():
+            facts["so"] = "tf2 drops the transforms that follow, until their stamps reach this one"
+        else:
+            facts["so"] = "tf2 drops a transform that is so old"
+        group = str(facts["so"])
+        yield hit_of(one, facts, since=int(one.logs[place]), count=len(places), group=group)
 
 
 @check(
@@ -365,7 +370,7 @@ def wild_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     because_of=(("stream", "clock-mixture"),),
 )
 def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A sensor's stamps are in the future, because two clocks differ."""
+    """A sensor's stamps are in the future, or on another clock than most stamps."""
     alike: dict[int, list[Track | Heard]] = defaultdict(list)
     for track in model.unshifted:
         ahead = -track.median_latency
@@ -397,11 +402,9 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
             told = f": {model.shift.streams} of {model.shift.of} streams are not on the recorder's"
         sources = _on_both_clocks(model, streams)
         so = "each lookup at these stamps asks for what is not there"
-        so += (
-            " yet, by the same amount for ever; a larger timeout does not help"
-            if ahead > 0
-            else " any more"
-        )
+        so += " yet" if ahead > 0 else " any more"
+        if 0 < ahead <= model.settings.cache_time:
+            so = f"each lookup at these stamps has to wait {by} longer, or fails"
         off = f"off {other}"
         if told:
             so = "no lookup across the two clocks can succeed"

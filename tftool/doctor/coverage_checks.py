@@ -63,8 +63,10 @@ def static_missing(model: Model, limits: Limits) -> Iterator[Hit]:
         why = f"{static[0].name} is there and has no message"
     cure = "look whether the robot sends any: `{publishers} /tf_static`; if so, {record}"
     if model.lacks_state_publisher:
-        why = "robot_state_publisher did not run (joint states came, but no transform of a joint)"
-        cure = "start robot_state_publisher with the robot's description"
+        why = "joint states came, but no transform of a joint, as without robot_state_publisher"
+        cure = (
+            "look whether robot_state_publisher runs; if not, start it with the robot's description"
+        )
     names = sorted({heard.frame for heard in unknown})
     yield Hit(
         frames=tuple(names),

@@ -32,8 +32,7 @@ check = checks_of(Area.CLOCKS)
     headline="{where} {concerned:is|are} dated {upto}{late:span} before {concerned:its|their} "
     "arrival",
     detail="{what}: {late:span} late ({of}){varies}",
-    consequence="lookups at the present time fail, or use older data; in rviz the frame lags or "
-    "disappears",
+    consequence="a program that uses the present time gets older data, or none",
     causes=(
         "the stamp is copied from an old measurement",
         "the publisher's clock is behind",
@@ -200,8 +199,8 @@ def _in_time(model: Model, track: Track, least: float) -> Hit | None:
         topic = other.topics[0]
         facts = {"what": track.name, "late": track.median_latency, "varies": "", **_MEDIAN}
         cure = (
-            f"{topic} brings the same poses{but} {span(latency)} after their stamps: the node that "
-            "sends both stamps the transform with an older time"
+            f"{topic} brings the same poses{but} {span(latency)} after their stamps: look at where "
+            "the publisher of the transform takes its stamps from"
         )
         return hit_of(track, facts, severity=Severity.WARNING, fixes=(Fix(cure),))
     return None
@@ -243,7 +242,7 @@ def _late(model: Model, stream: "Track | Heard") -> Hit:
         if soon and not shown and np.isin(stream.stamps, other.stamps).mean() > 0.5:
             shown = (
                 f"{other.topic} has the same stamps, {span(other.median_latency)} late: these "
-                "messages wait on their way, and no clock is wrong"
+                "messages wait in their publisher or on their way, and no clock is wrong"
             )
     facts = {"what": stream.name, "late": stream.median_latency, "varies": varies, **_MEDIAN}
     if isinstance(stream, Track) and not shown and 2 * (high - low) < stream.median_latency:

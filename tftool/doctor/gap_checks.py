@@ -554,8 +554,7 @@ def coarse_odometry(model: Model, limits: Limits) -> Iterator[Hit]:
     "if no message with a position is in this frame or below it",
     headline="{where} {concerned:was|were} sent once, on /tf",
     detail="{edge}: at {stamp:moment}{beside}",
-    consequence="lookups succeed only at the stamp of this sample, and only while the cache keeps "
-    "the sample",
+    consequence="lookups at other times fail",
     causes=("a mount sent with a TransformBroadcaster",),
     why="tf2 interpolates between two samples, and never extrapolates from a single sample",
     because_of=(

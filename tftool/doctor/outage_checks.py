@@ -223,11 +223,13 @@ def _receiver_stalls(model: Model, limits: Limits) -> Hit | None:
             "streams": len(streams) + 1,
             "of": len(streams) + 1,
             "names": ["/clock", *(one.name for one in streams)],
-            "lost": "/clock went on meanwhile, and came in a burst afterwards: the recorder or its "
-            "computer stalled",
+            "lost": "/clock went on meanwhile, and came in a burst afterwards: the recorder, its "
+            "computer or the network stalled",
             "often": f", again and again: {len(places)} times",
         },
-        fixes=(Fix("look at the recorder (its cache, its disk) and the load of its computer"),),
+        fixes=(
+            Fix("look at the recorder (its cache, its disk), its computer's load and the network"),
+        ),
         alone=True,
     )
 

@@ -25,7 +25,7 @@ COMPARE_CLOCKS = Fix("compare the clocks of the computers (`date`, `chronyc trac
     rule="a transform on a dynamic topic has stamp 0",
     headline="{where} {concerned:has|have} stamp 0",
     detail="{edge}: {count} of {of} samples",
-    consequence="lookups at any other time fail; in a lookup, 0 means the latest time",
+    consequence="{so}; in a lookup, 0 means the latest time",
     fixes=(Fix("look at its publisher: `{publishers} {tf_topic}`"),),
     causes=(
         "the stamp is never set",
@@ -37,11 +37,15 @@ def zero_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     for track in model.dynamic:
         zeros = np.flatnonzero(track.stamps == 0)
         if len(zeros):
+            so = "lookups do not use these samples"
+            if len(zeros) == len(track.stamps):
+                so = "lookups at any other time fail"
             yield hit_of(
                 track,
-                {"count": len(zeros), "of": len(track.stamps)},
+                {"count": len(zeros), "of": len(track.stamps), "so": so},
                 since=int(track.logs[zeros[0]]),
                 count=len(zeros),
+                group=so,
             )
 
 
@@ -78,7 +82,9 @@ def frozen_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
             "lasted": lasted,
         }
         if isinstance(one, Track):
-            facts["so"] = "lookups at any other time refuse: the buffer holds only that stamp"
+            facts["so"] = "lookups at later times refuse while the stamp does not change"
+            if count == len(one.stamps):
+                facts["so"] = "lookups at any other time refuse: the buffer holds only that stamp"
         elif one.frame not in model.frames or model.rests(one.frame):
             continue
         else:
@@ -95,7 +101,8 @@ def frozen_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
             count=count,
             alone=isinstance(one, Heard) or one.is_localisation,
             severity=None if is_sensor else Severity.NOTE,
-            fixes=(Fix(f"look at what its publisher waits for: `{{publishers}} {topic}`"),),
+            fixes=(Fix(f"look at where its publisher takes it from: `{{publishers}} {topic}`"),),
+            group=str(facts["so"]),
         )
 
 
