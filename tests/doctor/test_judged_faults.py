@@ -11,7 +11,7 @@ from tests.doctor.robots import NO_TURN, START, Robot, drives, robot, stands
 from tftool.base.stamps import seconds
 from tftool.doctor.findings import Severity
 from tftool.doctor.judge import judge
-from tftool.recordings.contract import Publisher
+from tftool.recordings.contract import Publisher, RecordedTopic
 
 
 def test_a_real_sensor_beside_a_simulated_robot_is_one_warning():
@@ -182,6 +182,38 @@ def test_three_publishers_of_equal_transforms_send_each_three_times():
             pose = (0.0, 0.2, 0.0, *turned(0.1 * tick, 1))
             made.sent("base_link", "wheel", 0.1 * tick, pose, latency=0.004 + 0.0001 * copy)
     assert found(made, "sent-twice").edges == (("base_link", "wheel"),)
+
+
+def test_equal_transforms_of_two_publishers_are_a_note_that_names_the_description():
+    made = robot()
+    for tick in range(80):
+        for copy in range(2):
+            pose = (0.0, 0.2, 0.0, *turned(0.1 * tick, 1))
+            made.sent("base_link", "wheel", 0.1 * tick, pose, latency=0.004 + 0.0001 * copy)
+    finding = found(made, "sent-twice")
+    assert (finding.severity, finding.edges) == (Severity.NOTE, (("base_link", "wheel"),))
+    assert "topic info --verbose /tf" in finding.fixes[0].text
+    evidence = made.evidence()
+    described = RecordedTopic("/robot_description", "std_msgs/String", encoding="cdr", count=2)
+    evidence = replace(
+        evidence,
+        topics=(*evidence.topics, described),
+        publishers=(*evidence.publishers, Publisher("/robot_description", offers=2)),
+    )
+    (told,) = [one for one in judge(evidence).findings if one.id == "sent-twice"]
+    assert "topic info --verbose /robot_description" in told.fixes[0].text
+
+
+@pytest.mark.parametrize(("speed", "told"), [(0.5, ["rep105-shape"]), (0.001, [])])
+def test_a_footprint_that_stays_behind_while_the_robot_drives_is_a_warning(speed, told):
+    made = robot(odometry=False)
+    made.moving("odom", "base_footprint", pose=stands)
+    made.moving("base_footprint", "base_link", pose=lambda t: (speed * t, 0.0, 0.0, *NO_TURN))
+    assert ids(made) == told
+    if told:
+        finding = found(made, "rep105-shape")
+        assert "base_link in base_footprint moves by 3.99 m" in finding.evidence[0]
+        assert "base_footprint as the robot's frame see a robot" in finding.consequence
 
 
 def test_transforms_that_end_at_the_very_start_are_told():

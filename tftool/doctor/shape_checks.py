@@ -2,6 +2,9 @@
 
 from collections import defaultdict, deque
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
+
+import numpy as np
 
 from tftool.base.plain_text import count
 from tftool.base.stamps import NANOSECONDS
@@ -10,7 +13,7 @@ from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
 from tftool.doctor.missing_joins import base_of, mount_command, proposed_join
 from tftool.doctor.model import Limits, Model, Tree
 from tftool.doctor.stamp_stream import PLACED, Heard, Track, last_part, overlap
-from tftool.doctor.wording import several
+from tftool.doctor.wording import metres, several
 
 check = checks_of(Area.SHAPE)
 
@@ -327,28 +330,51 @@ def _name_it(model: Model, topic: str) -> Fix:
     Severity.NOTE,
     rule="map and odom exist, and base is a child of map beside odom; or odom is a child of "
     "a base below map; or map is below odom; or base_footprint and base_link are both "
-    "children of odom",
-    headline="map, odom and base are not a chain: {where}",
+    "children of odom. A warning if base_footprint never moves in odom, while base_link moves in "
+    "base_footprint by more than {metres:g} m",
+    headline="map, odom and base are not arranged as in REP-105: {where}",
     detail="{found}",
-    consequence="programs that expect REP-105 (odom in map, base in odom) get another pose or none",
+    consequence="{so}",
     causes=("a localiser publishes map to base_link",),
     links=(
         REP105,
         *threads("rsasaki0109/lidar_slam_ros2#86", "ros-navigation/navigation2#5095"),
     ),
+    limits={"metres": 1.0},
     because_of=(
         ("child", "publisher-conflict two-parents"),
         ("frame", "slash-twins namespace-twins case-twins typo-twins"),
     ),
 )
 def rep105_shape(model: Model, limits: Limits) -> Iterator[Hit]:
-    """The frames map, odom and base do not form a chain (REP-105)."""
+    """The frames map, odom and base are not arranged as in REP-105."""
     named: dict[str, list[str]] = defaultdict(list)
     for frame in sorted(model.frames):
         named[last_part(frame)].append(frame)
+    parent_of = {child: track.parent for child, track in model.parents.items()}
+    for foot in named["base_footprint"]:
+        held = model.parents.get(foot)
+        if held is None or held.parent not in named["odom"] or held.moves:
+            continue
+        for link in named["base_link"]:
+            track = model.parents.get(link)
+            if track is None or track.parent != foot or not len(track.by_stamp):
+                continue
+            moved = float(np.ptp(track.translations[track.by_stamp, :2], axis=0).max())
+            if moved > limits["metres"]:
+                text = f"{held.name} never moves, while {track.name} moves by {metres(moved)}"
+                hit = _shape(model, held.edge, text, track.edge)
+                sender = ", ".join(held.nodes) or f"the publisher of {held.name}"
+                cure = f"look why {sender} moves {link} in {foot}, and not {foot} in {held.parent}"
+                so = f"programs that use {foot} as the robot's frame see a robot that stands still"
+                yield replace(
+                    hit,
+                    severity=Severity.WARNING,
+                    facts={"found": text, "so": so},
+                    fixes=(Fix(cure),),
+                )
     if not named["map"] or not named["odom"]:
         return
-    parent_of = {child: track.parent for child, track in model.parents.items()}
     for name in ("base_footprint", "base_link"):
         for base in named[name]:
             above = parent_of.get(base, "")
@@ -382,6 +408,10 @@ def _shape(model: Model, edge: tuple[str, str], found: str, *more: tuple[str, st
         edges=(edge, *more),
         frames=tuple(dict.fromkeys(name for one in (edge, *more) for name in one)),
         confidence=Confidence.LIKELY,
-        facts={"found": found},
+        facts={
+            "found": found,
+            "so": "programs that expect REP-105 (odom in map, base in odom) get another pose or "
+            "none",
+        },
         fixes=(Fix(f"look at the frame names in the settings of {nodes}"),),
     )

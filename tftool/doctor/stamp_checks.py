@@ -12,6 +12,7 @@ from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_stream import Heard, Places, Track, unsorted_share
 from tftool.doctor.wording import is_ros1, metres
 from tftool.recordings.contract import Stamps, percentile
+from tftool.recordings.description_frames import description_topics
 
 check = checks_of(Area.CLOCKS)
 
@@ -258,8 +259,9 @@ _SPIKE = 0.01
     Severity.WARNING,
     rule="a sensor or odometry sends {samples:g} messages or more in one frame, and {share:g} "
     "times as many messages as different stamps, or more. Or a transform is sent three times "
-    "or more at once, with one stamp and value. A note for messages other than laser scans, "
-    "because their stamps may be those of a simulator's step or of a slower source",
+    "or more at once, with one stamp and value. A note for a moving transform that is sent "
+    "twice, and for messages other than laser scans, because their stamps may be those of a "
+    "simulator's step or of a slower source",
     headline="{where} {concerned:sends|send} each message several times",
     detail="{topic}: {count} messages have {different} different stamps",
     consequence="programs that use the topic process each message several times",
@@ -287,8 +289,9 @@ def sent_twice(model: Model, limits: Limits) -> Iterator[Hit]:
             )
     for track in model.dynamic:
         stamps, different = track.sorted_stamps, 1 + len(track.steps)
-        few = len(stamps) < (limits["share"] + 1.0) * different
-        if few or len(stamps) < limits["samples"] or not track.period:
+        few = len(stamps) < limits["share"] * different or len(stamps) < limits["samples"]
+        is_double = len(stamps) < (limits["share"] + 1.0) * different
+        if few or not track.period or (is_double and not track.moves):
             continue
         again = np.flatnonzero(np.diff(stamps) == 0)
         some, others = track.by_stamp[again], track.by_stamp[again + 1]
@@ -302,8 +305,17 @@ def sent_twice(model: Model, limits: Limits) -> Iterator[Hit]:
             "count": len(stamps),
             "different": different,
         }
-        fix = Fix(f"count its publishers: `{{publishers}} {track.topics[0]}`")
-        yield hit_of(track, facts, fixes=(fix,))
+        # Two robot_state_publishers are the usual cause, and both publish the description.
+        descriptions = {one.name for one in description_topics(model.evidence.topics)}
+        doubled = [
+            one.topic
+            for one in model.evidence.publishers
+            if one.topic in descriptions and one.offers > 1
+        ]
+        topic = (*doubled, *track.topics)[0]
+        fix = Fix(f"count its publishers: `{{publishers}} {topic}`")
+        severity = Severity.NOTE if is_double else None
+        yield hit_of(track, facts, fixes=(fix,), severity=severity)
 
 
 _NOETIC = seconds(1_590_000_000)
