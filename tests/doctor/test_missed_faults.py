@@ -57,7 +57,15 @@ def test_commands_that_go_on_show_that_all_transforms_stopped_too_early(number):
     if number == 40:
         told = found(made, "edge-stopped")
         assert told.severity is Severity.WARNING
-        assert "; /cmd_vel goes on for 3.92 s, with 40 commands to move" in told.evidence[0]
+        assert "; /cmd_vel goes on for 3.92 s (40 messages)" in told.evidence[0]
+
+
+def test_other_messages_that_go_on_after_all_transforms_are_counted():
+    made = robot()
+    made.hears("/points", "base_link", kind="sensor_msgs/PointCloud2", end=12.0)
+    told = found(made, "edge-stopped")
+    assert told.severity is Severity.WARNING
+    assert "; /points goes on for 3.93 s (40 messages)" in told.evidence[0]
 
 
 @pytest.mark.parametrize(

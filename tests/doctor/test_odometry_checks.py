@@ -175,4 +175,4 @@ def test_commands_after_the_last_transform_are_read_unless_all_are_zero(tmp_path
         evidence = evidence_of(recording)
     assert {topic: len(times) for topic, times in evidence.commands.items()} == {"/cmd_vel": 200}
     (stopped,) = [one for one in judge(evidence).findings if one.id == "edge-stopped"]
-    assert "/cmd_vel goes on for 10.00 s, with 100 commands to move" in stopped.evidence[0]
+    assert "/cmd_vel goes on for 10.00 s (100 messages)" in stopped.evidence[0]

@@ -1,7 +1,7 @@
 """Checks for missing transforms: edges that stop, pause or have a single sample."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
@@ -104,7 +104,7 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
             continue
         # If all links end at once, as when a session's host exits, it is not the fault of one link.
         all_end = latest - last <= least
-        driven = _commands_after(model, last, least, limits) if all_end else ""
+        driven = _going_on(model.evidence.commands, last, least, limits) if all_end else ""
         is_soon = last - model.start <= _AT_ONCE * length
         if all_end and not is_soon and not driven:
             continue
@@ -112,6 +112,8 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
         is_played = model.was_played and all(map(is_player, track.nodes))
         if is_played:
             cure = "a player published it: look whether the played recording ends there"
+        others_go_on = any(other.logs[-1] - last > least for other in model.dynamic)
+        heard = {one.topic: one.logs for one in alive if isinstance(one, Heard)}
         if driven:
             cure = (
                 "no transform and no sensor data goes on: look at the robot's drivers at this "
@@ -122,7 +124,7 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
         if is_played and all_end and bool((clock > last + least).any()):
             cure = f"all data but /clock ends at {span(last - model.start)}; {cure}"
             severity = Severity.WARNING
-        elif not any(other.logs[-1] - last > least for other in model.dynamic):
+        elif not others_go_on:
             severity = Severity.NOTE if is_played and all_end else Severity.WARNING
         elif not is_soon and _is_shut_down(model, alive, last + least):
             severity = Severity.NOTE
@@ -139,7 +141,7 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
                 "last": ended,
                 "before": before,
                 "period": track.period,
-                "beside": driven,
+                "beside": driven or ("" if others_go_on else _going_on(heard, last, least, limits)),
                 "below": sorted(model.below(track.child)),
             },
             since=last,
@@ -150,14 +152,20 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
         )
 
 
-def _commands_after(model: Model, last: int, least: float, limits: Limits) -> str:
-    """Return a clause about commands that go on after the last transform; "" without commands."""
+def _going_on(streams: Mapping[str, Stamps], last: int, least: float, limits: Limits) -> str:
+    """Return a clause about topics that go on after the last transform; "" without such topics.
+
+    Args:
+        streams: Log times of each topic's messages, ascending, nanoseconds.
+        last: Log time of the last transform, nanoseconds.
+        least: Minimum time from the last transform to the last message, nanoseconds.
+        limits: Thresholds of `edge-stopped`.
+    """
     told = ""
-    for topic, times in model.evidence.commands.items():
+    for topic, times in streams.items():
         later = times[times > last]
         if len(later) >= limits["commands"] and later[-1] - last > least:
-            goes_on = span(int(later[-1]) - last)
-            told += f"; {topic} goes on for {goes_on}, with {len(later):,} commands to move"
+            told += f"; {topic} goes on for {span(int(later[-1]) - last)} ({len(later):,} messages)"
     return told
 
 
