@@ -382,6 +382,18 @@ def test_each_outage_is_told_whatever_the_offset_of_the_clock(ahead):
     assert "on 1 of them data of that time never came (up to 1.10 s)" in told
 
 
+def test_messages_as_late_as_their_transforms_are_placed():
+    made = robot(odometry=False, scans=False)
+    # The delay varies too much for a shift of the clock.
+    for begin, end, late in ((0.0, 6.0, 12.0), (6.0, 8.0, 15.0)):
+        made.moving("odom", "base_link", begin=begin, end=end, latency=late)
+        made.hears("/scan", "laser", begin=begin, end=end, latency=late)
+    assert "cache-short" not in ids(made, notes=True)
+    late = robot(scans=False)
+    late.hears("/scan", "laser", latency=12.0)
+    assert found(late, "cache-short").severity is Severity.WARNING
+
+
 def test_two_samples_at_once_have_not_stopped():
     made = robot()
     for at in (2.0, 2.02):

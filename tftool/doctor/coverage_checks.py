@@ -286,8 +286,8 @@ def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Wa
     detail="{refused:%} refused at arrival (in {fixed}); wait {p50:span} (median), {p95:span} "
     "(95 %), {worst:span} (worst); {never:%} never served; held up by {link}, which comes every "
     "{period:span}, {arrives}",
-    consequence='"extrapolation into the future", or a message filter that drops messages because '
-    "its queue is full",
+    consequence='"extrapolation into the future" without a wait; a message filter delays these '
+    "messages, and drops some if its queue is full",
     causes=(
         "odometry is slower or later than the sensor",
         "the clocks of two computers",
@@ -519,7 +519,8 @@ def _is_robot(link: Track) -> bool:
     "cache-short",
     Severity.WARNING,
     rule="95 % of a topic's messages are older than the cache time (10 s, or --cache-time) when "
-    "they arrive. A note for messages other than scans, point clouds and ranges",
+    "they arrive. A delay of the transforms that place them is subtracted first. A note for "
+    "messages other than scans, point clouds and ranges",
     headline="{topic} arrives later than the cache time",
     detail="{topic}: {late:span} after its stamp (median), {worst:span} at most; the buffer "
     "keeps {cache:span}",
@@ -545,7 +546,11 @@ def cache_short(model: Model, limits: Limits) -> Iterator[Hit]:
         latency = heard.latency[heard.stamps != 0]
         if not len(latency):
             continue
-        if percentile(latency, 95) > model.settings.cache_time and not stands_still(heard):
+        # Transforms that are as late as the messages are still in the buffer.
+        path = model.path(heard.frame, model.fixed_frame) or ()
+        fresh = min((track.median_latency for track in path if not track.static), default=0)
+        least = model.settings.cache_time + max(0, fresh)
+        if percentile(latency, 95) > least and not stands_still(heard):
             worst = int(latency.max())
             yield hit_of(
                 heard,
@@ -555,7 +560,7 @@ def cache_short(model: Model, limits: Limits) -> Iterator[Hit]:
                     "cache": model.settings.cache_time,
                     "needed": math.ceil(worst / NANOSECONDS) + 1,
                 },
-                count=int(np.count_nonzero(latency > model.settings.cache_time)),
+                count=int(np.count_nonzero(latency > least)),
                 severity=None if last_part(heard.type) in PLACED else Severity.NOTE,
             )
 
