@@ -231,9 +231,9 @@ def _has_unshifted(model: Model, shift: Shift) -> bool:
 @check(
     "future-stamp",
     Severity.NOTE,
-    rule="the median latency of a transform is below -{seconds:g} s (for a transform from map to "
-    "odometry: -{localisation:g} s). Not reported if the transform is ahead by its own "
-    "period, or by a constant of up to 1 s",
+    rule="the stamps of a transform are later than its arrival: by more than {seconds:g} s in the "
+    "median (from map to odometry: {localisation:g} s). Not reported if they are later by the "
+    "period of the transform, or by a constant of up to 1 s",
     headline="{where} {concerned:is|are} dated {ahead:span} ahead of {concerned:its|their} arrival",
     detail="{edge}: {ahead:span} ahead (median){clock}",
     consequence="the latest common time is in the future: a lookup of the latest transform combines"

@@ -251,9 +251,10 @@ def self_transform(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "empty-frame",
     Severity.ERROR,
-    rule="the name of a frame is empty. An error in a transform, a warning in the header of a "
-    "message with a position. A note in a transform on a topic that tf2 does not read, in "
-    "messages without a stamp, and in velocities, accelerations and forces without a position",
+    rule="the name of a frame is empty. The severity is error for a transform, and warning for the "
+    "header of a message with a position. It is note for a transform on a topic that tf2 does not "
+    "read, for messages without a stamp, and for velocities, accelerations and forces without a "
+    "position",
     headline="no frame name in {named}",
     detail="{what}: {detail}, {count:times}",
     consequence="{so}",

@@ -69,7 +69,7 @@ class PlotPanel:
     curves: tuple[PlotCurve, ...]
 
     def limits(self) -> tuple[float, float]:
-        """Return the limits of an axis that shows all curves, at least `LEAST_SPAN` apart."""
+        """Return limits of an axis for all curves; the limits differ by at least `LEAST_SPAN`."""
         values = np.concatenate([one.values for one in self.curves] or [np.zeros(1)])
         values = values[np.isfinite(values)]
         low, high = (float(values.min()), float(values.max())) if len(values) else (0.0, 0.0)

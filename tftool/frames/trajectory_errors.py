@@ -269,7 +269,7 @@ def _pieces(path: TransformArray, step: PieceLength) -> tuple["np.ndarray", "np.
 
 
 def _marks(moved: list[float], size: float) -> list[int]:
-    """Return the indices that divide a path into parts of the length `size`.
+    """Return the indices that divide a path into parts, each at least `size` long.
 
     Args:
         moved: Distance (or angle) from each pose to the next.

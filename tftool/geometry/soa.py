@@ -51,8 +51,9 @@ def arcs(starts: Floats, ends: Floats) -> Arcs:
     """Compute the arcs between unit quaternions, shapes (n, 4), in any order of components.
 
     Source:
-        Shoemake, "Animating Rotation with Quaternion Curves", SIGGRAPH 1985. Here the formula is
-        divided by the cosine of fθ. One square root at the end of a chain restores the length.
+        Shoemake, "Animating Rotation with Quaternion Curves", SIGGRAPH 1985. With the angle θ of
+        an arc and a fraction f of it, Shoemake's formula is divided by cos(fθ) here. The results
+        are therefore no unit quaternions, and are normalised after the last multiplication.
     """
     ends = np.where(_dot(starts, ends) < 0.0, -ends, ends)
     apart = ends - starts

@@ -106,9 +106,9 @@ def run(connection: Connection, options: SessionOptions) -> ExitStatus:
     """Run `tftool session`: print the processes, nodes, topics and services of the session."""
     if options.place is not None:
         raise UsageError(
-            f"'{visible(options.place)}' is not the address of a session: to show the session of "
-            "this machine, give no address, or give the address of a Foxglove server, such as "
-            "ws://robot:8765."
+            f"'{visible(options.place)}' is not the address of a session: give the address of a "
+            "Foxglove server, such as ws://robot:8765, or no address for the session of this "
+            "machine."
         )
     if connection.mode is Mode.HOST:
         raise UsageError(

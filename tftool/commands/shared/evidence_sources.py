@@ -85,7 +85,7 @@ def evidence_from(
 
 
 def rules_of(source: str | None) -> DoctorRules:
-    """Return the doctor's settings in the scenario `source`, or in a file beside a recording.
+    """Return the doctor's settings for a source: in the scenario itself, or beside the recording.
 
     Raises:
         InputError: If the file cannot be read.

@@ -120,7 +120,7 @@ class NodeState:
         """
         if self._destroyed:
             raise InvalidHandle(
-                f"node '{self.name}' is destroyed, so nothing can be created on it: create it "
+                f"node '{self.name}' is destroyed: create its publishers, timers and so on "
                 "before destroy_node()"
             )
 
