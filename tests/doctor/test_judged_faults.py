@@ -891,3 +891,19 @@ def test_repeated_stamps_tell_how_far_the_values_differ_and_which_jumps_they_cau
     assert "40 of them with a value that differs by more than 1 mm" in told
     assert "at most 40 mm" in told
     assert "out and back by 10 mm or more 40 times, with the last one 0 times" in told
+
+
+def test_a_static_whose_values_hardly_differ_is_a_note():
+    for step, severity in ((1e-4, Severity.NOTE), (1e-3, Severity.WARNING)):
+        made = robot(laser=False)
+        for number in range(4):
+            pose = (0.1 + step * number, 0.0, 0.2, *NO_TURN)
+            made.static("base_link", "laser", pose, at=float(number))
+        assert found(made, "dynamic-on-static").severity is severity
+
+
+def test_a_robot_that_stays_in_the_map_may_have_wrong_odometry():
+    made = robot(odometry=False)
+    made.moving("odom", "base_link", pose=lambda t: (t, 0.0, 0.0, *NO_TURN))
+    made.moving("map", "odom", pose=lambda t: (-t, 0.0, 0.0, *NO_TURN))
+    assert "either the odometry or" in found(made, "odometry-cancelled").consequence

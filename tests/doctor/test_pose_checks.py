@@ -31,7 +31,7 @@ def test_zeros_that_a_detector_sends_by_turns_with_poses_are_one_finding():
         "obj1, obj2 in camera are sent as exactly 0 0 0 in 66.7 % of their samples, by turns with "
         "other poses"
     )
-    assert finding.fixes[0].text.startswith("let /detector send nothing")
+    assert finding.fixes[0].text.startswith("look whether /detector has a measurement")
 
 
 def test_rare_zeros_of_a_detector_explain_its_jumps():

@@ -233,7 +233,7 @@ def negative_variance(model: Model, limits: Limits) -> Iterator[Hit]:
     "placed up to one step off",
     causes=("a node that sends its last measurement at a higher rate than that of the encoders",),
     fixes=(
-        Fix("look how often its publisher reads the encoders; stamp a pose when it was measured"),
+        Fix("look how often its publisher gets a new pose, and stamp a pose when it was measured"),
     ),
     limits={"share": 0.6, "samples": 20, "metres": 0.01, "degrees": 2.0},
     because_of=(("edge", "frozen-stamp repeated-stamp publisher-conflict"),),
@@ -278,8 +278,12 @@ _STANDS = 8
     headline="{child} stays within {stays:m} in {map}, although it goes {drives:m} in {odom}",
     detail="{edge}: it changes against the odometry; {child} is that close to its "
     "median position for 90 % of the time",
-    consequence="the robot does not move in the map, so that its pose there is wrong",
-    fixes=(Fix("look at the localiser: which pose it computes, and with which odometry"),),
+    consequence="either the odometry or the pose in the map is wrong",
+    fixes=(
+        Fix(
+            "look whether the robot drove; if so, which pose the localiser computes, and from what"
+        ),
+    ),
     limits={"metres": 1.5, "share": 0.05},
 )
 def odometry_cancelled(model: Model, limits: Limits) -> Iterator[Hit]:

@@ -27,9 +27,10 @@ check = checks_of(Area.VALUES)
     headline="{named} {concerned:is|are} sent as exactly 0 0 0 in {share:%} of "
     "{concerned:its|their} samples, by turns with other poses",
     detail="{zeros} of {of} samples; the other poses are up to {away:m} from there",
-    consequence="an invalid value is sent as a pose: {named} {concerned:jumps|jump} to the origin "
-    "of {parent} and back",
-    fixes=(Fix("let {sender} send nothing where it has no valid measurement"),),
+    consequence="{named} {concerned:jumps|jump} to the origin of {parent} and back",
+    fixes=(
+        Fix("look whether {sender} has a measurement then; without one, it should send nothing"),
+    ),
     causes=("a detector without a depth at the place of the object",),
 )
 def placeholder_pose(model: Model, limits: Limits) -> Iterator[Hit]:
@@ -107,7 +108,11 @@ def _is_zero(track: Track) -> Mask:
     detail="{edge}: the same pose {stretches}; the jump is at {at:moment}; usually at most "
     "{usual:.2g} m/s",
     consequence="while the pose is frozen, lookups return an old pose under a new stamp",
-    fixes=(Fix("let the publisher send nothing while it has no new measurement"),),
+    fixes=(
+        Fix(
+            "look whether the publisher had a measurement then; without one, it should send nothing"
+        ),
+    ),
     causes=("a motion capture that lost its object and sends the last pose",),
     limits={"seconds": 0.25, "repeats": 4, "metres": 0.05, "times": 3.0},
 )

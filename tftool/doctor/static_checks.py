@@ -2,6 +2,7 @@
 
 from collections import Counter
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -51,7 +52,7 @@ def static_and_dynamic(model: Model, limits: Limits) -> Iterator[Hit]:
         if fix is None:
             fix = find_publishers(tracks)
         if is_one_edge and any(track.moves for track in moving[child]):
-            fix = Fix(f"{child} moves: the static one is wrong; {fix.text}")
+            fix = Fix(f"{child} moves on /tf, which a static transform cannot follow: {fix.text}")
         yield Hit(
             edges=tuple(dict.fromkeys(track.edge for track in tracks)),
             frames=(child,),
@@ -123,21 +124,22 @@ def _mixed_kinds(model: Model, child: str) -> str:
     "dynamic-on-static",
     Severity.WARNING,
     rule="a static has {values:g} different values or more (apart by {metres:g} m or "
-    "{radians:g} rad)",
+    "{radians:g} rad). A note if all are within {slight:g} m and {slight_turn:g} rad",
     headline="{where} {concerned:moves, and is|move, and are} published as static",
     detail="{edge}: {values} values, up to {moved:m} and {turned:deg} apart",
     consequence="statics have no history: every lookup in the past returns the newest value, "
     "without an error",
     fixes=(Fix("find its publisher: `{publishers} /tf_static`"),),
     causes=("a calibration or a detector publishes its result with a static broadcaster",),
-    limits={"values": 4, "metres": 1e-6, "radians": 1e-4},
+    limits={"values": 4, "metres": 1e-6, "radians": 1e-4, "slight": 5e-4, "slight_turn": 1e-3},
     why="a recalibration changes the value of a static once or twice",
 )
 def dynamic_on_static(model: Model, limits: Limits) -> Iterator[Hit]:
     """A moving frame is published as static."""
-    for values, hit in _values_of_statics(model, limits):
+    for values, moved, turned, hit in _values_of_statics(model, limits):
         if values >= limits["values"]:
-            yield hit
+            is_slight = moved <= limits["slight"] and turned <= limits["slight_turn"]
+            yield replace(hit, severity=Severity.NOTE) if is_slight else hit
 
 
 @check(
@@ -156,12 +158,13 @@ def dynamic_on_static(model: Model, limits: Limits) -> Iterator[Hit]:
 )
 def static_changed(model: Model, limits: Limits) -> Iterator[Hit]:
     """A static transform was published again with another value."""
-    for values, hit in _values_of_statics(model, limits):
+    for values, _, _, hit in _values_of_statics(model, limits):
         if 2 <= values <= limits["values"]:
             yield hit
 
 
-def _values_of_statics(model: Model, limits: Limits) -> Iterator[tuple[int, Hit]]:
+def _values_of_statics(model: Model, limits: Limits) -> Iterator[tuple[int, float, float, Hit]]:
+    """Yield, for each static with several values, their number, how far they differ, and a hit."""
     for track in model.statics:
         places = np.flatnonzero(track.usable)
         if len(places) < 2:
@@ -184,15 +187,19 @@ def _values_of_statics(model: Model, limits: Limits) -> Iterator[tuple[int, Hit]
         if not changes:
             continue
         first = np.full(len(kept), kept[0])
+        moved = float(track.apart(np.array(kept), first).max())
+        turned = float(track.turned(np.array(kept), first).max())
         is_sudden = track.logs[changes[-1]] - track.logs[kept[0]] < NANOSECONDS
         yield (
             len(kept),
+            moved,
+            turned,
             hit_of(
                 track,
                 {
                     "values": len(kept),
-                    "moved": float(track.apart(np.array(kept), first).max()),
-                    "turned": float(track.turned(np.array(kept), first).max()),
+                    "moved": moved,
+                    "turned": turned,
                     "shown": ", then ".join(
                         " ".join(f"{n:.4g}" for n in track.translations[one]) for one in kept[:3]
                     ),
