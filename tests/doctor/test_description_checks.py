@@ -131,6 +131,7 @@ def test_a_description_with_mistakes_is_told_and_the_rest_is_skipped():
     made = robot()
     made.urdf = urdf("a: fixed one two", "b: fixed three four")
     assert ids(made) == ["urdf-invalid"]
+    assert found(made, "urdf-invalid").severity is Severity.WARNING  # the robot has its frames
     reasons = {one.id: one.reason for one in made.judged().skipped}
     assert reasons["urdf-tf-mismatch"] == "the robot description has mistakes"
 

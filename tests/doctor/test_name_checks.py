@@ -120,6 +120,8 @@ def test_names_that_differ_in_case_hide_the_frame_that_is_unknown():
     made.hears("/scan", "Laser")
     assert ids(made) == ["case-twins"]
     assert set(found(made, "case-twins").frames) == {"Laser", "laser"}
+    made.static("laser", "Laser")
+    assert found(made, "case-twins").severity is Severity.NOTE
 
 
 def test_a_typo_is_one_but_left_and_right_and_numbers_are_a_family():

@@ -7,6 +7,7 @@ import numpy as np
 
 from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Fix, Hit, Severity
+from tftool.doctor.missing_joins import has_base
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_stream import JOINT_STATES, PLACED, last_part
 from tftool.doctor.wording import several
@@ -24,7 +25,8 @@ _STATES = "look who publishes joint states: `{publishers} {states}`"
     "urdf-invalid",
     Severity.ERROR,
     rule="the description is not XML, has no root or several roots, a joint names a missing link, "
-    "joints form a loop, or a name is used twice",
+    "joints form a loop, or a name is used twice. A warning if a recording has transforms of a "
+    "base frame",
     headline="the robot description cannot be read",
     detail="{mistakes}",
     consequence="robot_state_publisher refuses it or publishes a part; nothing is compared with it",
@@ -39,7 +41,14 @@ def urdf_invalid(model: Model, limits: Limits) -> Iterator[Hit]:
     """The robot description has mistakes."""
     mistakes = model.evidence.mistakes
     if mistakes:
-        yield Hit(count=len(mistakes), facts={"mistakes": list(mistakes)}, alone=True)
+        # A robot whose frames were recorded works, whatever reads its description.
+        works = model.evidence.recorded and has_base(model)
+        yield Hit(
+            count=len(mistakes),
+            facts={"mistakes": list(mistakes)},
+            severity=Severity.WARNING if works else None,
+            alone=True,
+        )
 
 
 @check(

@@ -166,7 +166,7 @@ def _in_odometry(model: Model, tree: Tree, other: Tree) -> Join | None:
             continue
         by = ", ".join(Track(edge, odometry).topics)
         why = f"{len(edge):,} Odometry messages ({by}) say {edge.child} in {edge.parent}"
-        mend = f"let the publisher of {by} do it"
+        mend = f"let the publisher of {by}, or a filter that uses them, do it"
         if edge.child in model.parents:
             # The odometry's own edge would give the child a second parent.
             held = model.parents[edge.child].parent
@@ -264,8 +264,8 @@ def _mount(model: Model, text: str, parent: str, child: str, pose: Transform | N
         return Fix(text, static_publisher(parent, child, pose, ros1=is_ros1(model.evidence)))
     if model.lacks_state_publisher:
         return Fix(
-            "robot_state_publisher did not run: start it with the robot's description; to mend the "
-            "recording:",
+            "look whether robot_state_publisher runs; if not, start it with the robot's "
+            "description; to mend the recording:",
             "tftool edit RECORDING -o WHOLE --statics-from DESCRIPTION",
         )
     # The robot probably sends it: a second publisher would contradict the first one.

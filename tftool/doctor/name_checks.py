@@ -3,6 +3,7 @@
 import re
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 
 from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
@@ -59,7 +60,8 @@ def leading_slash(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "case-twins",
     Severity.WARNING,
-    rule="two names are equal without hyphens, underscores, blanks and case",
+    rule="two names are equal without hyphens, underscores, blanks and case. A note if transforms "
+    "connect them",
     headline="{first} and {second} differ only in spelling",
     detail="{users}",
     consequence="the two names are two frames: data in one frame is not in the other",
@@ -74,7 +76,11 @@ def case_twins(model: Model, limits: Limits) -> Iterator[Hit]:
         alike[_bare(name)].append(name)
     for twins in alike.values():
         if len(twins) > 1:
-            yield _twins(model, twins)
+            # A lookup between them works, so data in one frame can be placed in the other.
+            roots = {model.tree_of[name].root if name in model.frames else None for name in twins}
+            is_joined = len(roots) == 1 and None not in roots
+            hit = _twins(model, twins)
+            yield replace(hit, severity=Severity.NOTE) if is_joined else hit
 
 
 @check(
