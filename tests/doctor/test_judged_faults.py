@@ -884,6 +884,13 @@ def test_one_connection_for_the_transforms_of_several_nodes_names_no_publisher()
 
 def test_a_played_recording_names_no_publisher():
     assert found(corrected_robot("/play_1700000000000000000"), "repeated-stamp").publishers == ()
+    made = robot()
+    made.hears("/points", "", kind="sensor_msgs/PointCloud2")
+    for node, named in (("/driver", True), ("/play_1700000000000000000", False)):
+        evidence = made.evidence()
+        evidence = replace(evidence, publishers=(*evidence.publishers, Publisher("/points", node)))
+        (empty,) = [one for one in judge(evidence).findings if one.id == "empty-frame"]
+        assert (node in empty.fixes[0].text) is named
 
 
 def test_repeated_stamps_tell_how_far_the_values_differ_and_which_jumps_they_cause():

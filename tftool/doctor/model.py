@@ -125,12 +125,21 @@ class Model:
         laps: Backward jumps of the clock. The other attributes only contain data before the first
             jump.
         reference: Sentence about the clock used for latencies; empty for the recorder's clock.
+        was_played: Whether a node with the name of `rosbag play` or `ros2 bag play` published some
+            data. Only transforms beside those of other nodes keep its name.
         shift: Constant by which most stamps differ from the times of reception; None if there is
             no such constant.
     """
 
     def __init__(self, evidence: Evidence, settings: Settings | None = None) -> None:
-        evidence = replace(evidence, transforms=without_doubtful_names(evidence.transforms))
+        self.was_played = any(is_player(one.node) for one in evidence.publishers)
+        evidence = replace(
+            evidence,
+            transforms=without_doubtful_names(evidence.transforms),
+            publishers=tuple(
+                replace(one, node="") if is_player(one.node) else one for one in evidence.publishers
+            ),
+        )
         self.evidence = evidence
         self.settings = settings or Settings()
         tracks = [Track(edge, evidence.transforms) for edge in evidence.transforms.edges]
@@ -178,11 +187,6 @@ class Model:
     def has_named_publishers(self) -> bool:
         """Whether two or more nodes with known names publish transforms."""
         return len({one.node for one in self.evidence.transforms.publishers if one.node}) > 1
-
-    @cached_property
-    def was_played(self) -> bool:
-        """Whether a node with the name of `rosbag play` or `ros2 bag play` published some data."""
-        return any(is_player(one.node) for one in self.evidence.publishers)
 
     @cached_property
     def words(self) -> Mapping[str, str]:
