@@ -72,6 +72,15 @@ def test_what_is_wrong_is_told_as_without_threads(method):
     assert sum(isinstance(one, str) for one in found) >= 6
 
 
+def test_reading_that_ends_early_ends_its_threads():
+    before = threading.active_count()
+
+    with Ahead(range(20), lambda _: ("bz2", lambda: bz2.compress(b"text"), 4)) as ahead:
+        ahead.take(0)
+
+    assert threading.active_count() == before
+
+
 def test_what_cannot_be_read_is_told_when_it_is_asked_for():
     def nothing():
         raise InputError("the file was shortened")

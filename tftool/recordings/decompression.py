@@ -4,8 +4,9 @@ import bz2
 import contextlib
 import os
 from collections.abc import Callable, Iterable
-from concurrent.futures import Future, ThreadPoolExecutor
 from functools import cache
+from queue import SimpleQueue
+from threading import Lock, Thread
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from tftool.base.errors import InputError, UsageError
@@ -106,29 +107,55 @@ class _Room:
             return found == size and not reader.read(1)
 
 
-class _Coming:
+class Coming:
     """A chunk that is being decompressed, or waits to be decompressed.
+
+    The first thread that calls `unpack` decompresses the chunk. Two locks replace a future of
+    `concurrent.futures`, which made reading an lz4 recording 4 % slower.
 
     Attributes:
         room: Memory for the result.
-        future: Future of the result.
     """
 
-    def __init__(self, piece: Packed, room: _Room, pool: ThreadPoolExecutor) -> None:
+    __slots__ = ("_begun", "_error", "_found", "_piece", "_undone", "room")
+
+    def __init__(self, piece: Packed, room: _Room) -> None:
         self.room = room
         self._piece = piece
-        self.future: Future[bytes | memoryview] = pool.submit(room.unpack, *piece)
+        self._begun, self._undone = Lock(), Lock()
+        self._undone.acquire()  # released when the result is there
+        self._error: Exception | None = None
+        self._found: bytes | memoryview = b""
 
-    def unpack_here(self) -> None:
-        """Decompress the chunk in this thread, unless another thread has already begun."""
-        # If the future cannot be cancelled, a thread is decompressing the chunk.
-        if not self.future.cancel():
+    def unpack(self) -> None:
+        """Decompress the chunk in this thread, unless another thread has begun or dropped it."""
+        if not self._begun.acquire(blocking=False):
             return
-        self.future = Future()
         try:
-            self.future.set_result(self.room.unpack(*self._piece))
+            self._found = self.room.unpack(*self._piece)
         except Exception as error:
-            self.future.set_exception(error)
+            self._error = error
+        self._undone.release()
+
+    def drop(self) -> bool:
+        """Prevent decompression that has not begun; return whether no thread uses the memory."""
+        return self._begun.acquire(blocking=False) or self.is_done
+
+    @property
+    def is_done(self) -> bool:
+        """Whether the result is there."""
+        return not self._undone.locked()
+
+    def result(self) -> "bytes | memoryview":
+        """Wait for the decompressed bytes, and return them.
+
+        Raises:
+            Exception: If the chunk cannot be read or decompressed; see `unpack`.
+        """
+        with self._undone:
+            if self._error is not None:
+                raise self._error
+            return self._found
 
 
 class Ahead:
@@ -151,21 +178,27 @@ class Ahead:
         self._keys = iter(keys)
         self._packed = packed
         # By key, in order; None for chunks that are not decompressed ahead.
-        self._coming: dict[object, _Coming | None] = {}
+        self._coming: dict[object, Coming | None] = {}
         self._spare: list[_Room] = []
         self._lent: _Room | None = None
         self._workers = min(_processors() - 1, _MOST_WORKERS)
-        self._pool: ThreadPoolExecutor | None = None
+        self._queue: SimpleQueue[Coming | None] = SimpleQueue()
+        self._threads: list[Thread] = []
 
     def __enter__(self) -> "Ahead":
         return self
 
-    def __exit__(self, *_: object) -> None:
-        if self._pool is not None:
-            self._pool.shutdown(wait=True, cancel_futures=True)
+    def __exit__(self, *error: object) -> None:
+        for coming in self._coming.values():
+            if coming is not None:
+                coming.drop()
+        for _ in self._threads:
+            self._queue.put(None)
+        for thread in self._threads:
+            thread.join()
 
-    def take(self, key: object) -> "Future[bytes | memoryview] | None":
-        """Return the future of a chunk's bytes; None for a chunk that is not decompressed ahead.
+    def take(self, key: object) -> Coming | None:
+        """Return a chunk, which may not be ready; None for a chunk not decompressed ahead.
 
         The bytes of the previous call must not be used any more: their memory is reused.
         """
@@ -179,13 +212,13 @@ class Ahead:
         self._start()
         for other in self._coming.values():
             # The wanted chunk is ready, so this thread need not help any more.
-            if found.future.done():
+            if found.is_done:
                 break
             if other is not None:
-                other.unpack_here()
-        return found.future
+                other.unpack()
+        return found
 
-    def _come_to(self, key: object) -> _Coming | None:
+    def _come_to(self, key: object) -> Coming | None:
         """Return the queued chunk with a key; drop the chunks before it, and queue more chunks.
 
         Return None if the chunk is not decompressed ahead.
@@ -197,7 +230,7 @@ class Ahead:
             if passed == key:
                 return found
             # The memory of a chunk that a thread is decompressing cannot be reused yet.
-            if found is not None and (found.future.cancel() or found.future.done()):
+            if found is not None and found.drop():
                 self._spare.append(found.room)
             self._start()
         return None
@@ -212,10 +245,17 @@ class Ahead:
             if piece is None or piece[0] in ("", "none") or piece[2] > _LARGEST_AHEAD:
                 self._coming[key] = None
                 continue
-            if self._pool is None:
-                self._pool = ThreadPoolExecutor(self._workers, "tftool-unpack")
+            while len(self._threads) < self._workers:
+                self._threads.append(Thread(target=self._run, name="tftool-unpack", daemon=True))
+                self._threads[-1].start()
             room = self._spare.pop() if self._spare else _Room()
-            self._coming[key] = _Coming(piece, room, self._pool)
+            self._coming[key] = coming = Coming(piece, room)
+            self._queue.put(coming)
+
+    def _run(self) -> None:
+        """Decompress queued chunks, until the queue ends with None."""
+        while (coming := self._queue.get()) is not None:
+            coming.unpack()
 
 
 def _processors() -> int:
