@@ -1,6 +1,8 @@
 """Tests of chunks that are unpacked ahead: the result equals that of unpacking on demand."""
 
 import bz2
+import subprocess
+import sys
 import threading
 from functools import partial
 
@@ -14,7 +16,7 @@ from tftool.recordings.decompression import Ahead, unpack
 TEXTS = [bytes([number]) * 1000 * (number + 1) + b"end" for number in range(8)]
 PACK = {
     "zstd": zstandard.ZstdCompressor(write_checksum=True).compress,
-    "lz4": lz4.frame.compress,
+    "lz4": partial(lz4.frame.compress, content_checksum=True),
     "bz2": bz2.compress,
 }
 
@@ -62,6 +64,10 @@ def test_what_is_wrong_is_told_as_without_threads(method):
         (method, b"", size),
         (method, b"nothing of that kind", size),
         (method, sound[:12] + b"\xff\x00\xff" + sound[15:], size),
+        (method, sound[:-1] + bytes([sound[-1] ^ 1]), size),
+        (method, sound + b"more", size),
+        (method, sound + sound, size),
+        (method, PACK[method](b""), 0),
         (method, sound, size),
     ]
 
@@ -70,6 +76,20 @@ def test_what_is_wrong_is_told_as_without_threads(method):
     assert found == [outcome(partial(unpack, *piece)) for piece in pieces]
     assert found[0] == found[-1] == TEXTS[5]
     assert sum(isinstance(one, str) for one in found) >= 6
+
+
+def test_lz4_is_unpacked_where_the_package_hides_its_library():
+    program = (
+        "import sys, types, lz4.frame\n"
+        "sys.modules['lz4.frame._frame'] = types.ModuleType('hidden')\n"
+        "from tests.recordings.test_ahead import PACK, TEXTS, taken\n"
+        "pieces = [('lz4', PACK['lz4'](text), len(text)) for text in TEXTS]\n"
+        "print(taken(pieces) == TEXTS)\n"
+    )
+
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+
+    assert (done.stdout, done.stderr) == ("True\n", "")
 
 
 def test_reading_that_ends_early_ends_its_threads():
