@@ -34,7 +34,8 @@ twice.
 
 _LARGEST_AHEAD: Final = 16 << 20
 _MOST_WORKERS: Final = 4
-_WAITING: Final = 3  # minimum number of chunks that wait for a thread
+_WAITING: Final = 3  # minimum number of chunks that wait for a thread, or for the reader
+_SMALL: Final = 2 << 20  # size of a chunk up to which twice as many wait, bytes
 _LARGEST_KEPT: Final = 31 << 20
 _LZ4F_VERSION: Final = 100  # of the interface of lz4's C library
 
@@ -229,6 +230,7 @@ class Ahead:
         self._spare: list[_Room] = []
         self._lent: _Room | None = None
         self._workers = min(_processors() - 1, _MOST_WORKERS)
+        self._waiting = _WAITING
         self._queue: SimpleQueue[Coming | None] = SimpleQueue()
         self._threads: list[Thread] = []
 
@@ -283,8 +285,8 @@ class Ahead:
         return None
 
     def _start(self) -> None:
-        """Queue the next chunks, until there are `_WAITING` more queued chunks than threads."""
-        while self._workers > 0 and len(self._coming) < self._workers + _WAITING:
+        """Queue the next chunks, until there are `_waiting` more queued chunks than threads."""
+        while self._workers > 0 and len(self._coming) < self._workers + self._waiting:
             key = next(self._keys, None)
             if key is None:
                 return
@@ -295,6 +297,8 @@ class Ahead:
             while len(self._threads) < self._workers:
                 self._threads.append(Thread(target=self._run, name="tftool-unpack", daemon=True))
                 self._threads[-1].start()
+            # Many small chunks keep the threads busy while the reader allocates columns.
+            self._waiting = _WAITING if piece[2] > _SMALL else 2 * _WAITING
             room = self._spare.pop() if self._spare else _Room()
             self._coming[key] = coming = Coming(piece, room)
             self._queue.put(coming)
