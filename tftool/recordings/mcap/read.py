@@ -521,8 +521,9 @@ class Mcap(ChunkedReader):
         data = np.frombuffer(self.unpacked(chunk, ahead), dtype=np.uint8)
         return in_order(
             [
-                Batch(data, *indexed(data, pairs, channel), np.full(len(pairs), chosen[channel]))
+                Batch(data, *indexed(data, pairs, channel), senders)
                 for pairs, channel in parts
+                for senders in [np.full(len(pairs), chosen[channel], dtype=np.int32)]
             ]
         )
 
