@@ -178,6 +178,12 @@ def test_statics_that_are_offered_to_no_late_subscriber():
     made = robot()
     made.publishers[1] = Publisher("/tf_static", durability="volatile")
     assert found(made, "static-not-latched").topics == ("/tf_static",)
+    made.kind = "ROS 1 bag"
+    assert found(made, "static-not-latched").severity is Severity.ERROR
+    for second in (1.0, 2.0, 3.0):
+        made.static("base_link", "laser", at=second)
+    assert found(made, "static-not-latched").severity is Severity.WARNING
+    assert "waits for the next repetition" in found(made, "static-not-latched").consequence
 
 
 def test_statics_in_more_messages_than_a_player_keeps_are_a_note():

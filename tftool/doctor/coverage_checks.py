@@ -84,12 +84,14 @@ def static_missing(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "static-not-latched",
     Severity.ERROR,
-    rule="a publisher offers a topic for static transforms with the durability volatile",
+    rule="a publisher offers a topic for static transforms with the durability volatile. A warning "
+    "in ROS 1 if each static is sent {often:g} times or more",
     headline="{topic} is offered {volatile} by {by}",
-    consequence="a listener that starts later never gets these statics",
+    consequence="{so}",
     fixes=(Fix("publish it {latched} (a StaticTransformBroadcaster does)"),),
     causes=("a relay or bridge with default QoS",),
     links=threads("ros2/geometry2#585", "realsenseai/realsense-ros#141"),
+    limits={"often": 3},
     needs=("durability",),
 )
 def static_not_latched(model: Model, limits: Limits) -> Iterator[Hit]:
@@ -97,12 +99,21 @@ def static_not_latched(model: Model, limits: Limits) -> Iterator[Hit]:
     static = {topic.name for topic in model.evidence.topics if topic.static}
     for publisher in model.evidence.publishers:
         if publisher.topic in static and publisher.durability == "volatile":
-            edges = [t.edge for t in model.statics if publisher.topic in t.topics]
+            tracks = [t for t in model.statics if publisher.topic in t.topics]
+            is_old = is_ros1(model.evidence)
+            is_repeated = is_old and all(len(t.stamps) >= limits["often"] for t in tracks)
+            so = "tf2's listeners ask for transient_local, so they get no message of this publisher"
+            if is_old:
+                again = (
+                    "waits for the next repetition" if is_repeated else "never gets these statics"
+                )
+                so = f"a listener that starts later {again}"
             yield Hit(
-                edges=tuple(edges),
+                edges=tuple(t.edge for t in tracks),
                 topics=(publisher.topic,),
                 publishers=(publisher.node,) if publisher.node else (),
-                facts={"topic": publisher.topic, "by": publisher.authority},
+                facts={"topic": publisher.topic, "by": publisher.authority, "so": so},
+                severity=Severity.WARNING if is_repeated else None,
             )
 
 

@@ -34,8 +34,8 @@ check = checks_of(Area.PUBLISHERS)
     "parents are below one root",
     headline="{child} changes between the parents {parents}",
     detail="{sources}; changes {switches:times}, first at {first:moment}",
-    consequence="a lookup of {lost} goes through the parent that was sent last; a lookup that "
-    "needs the other parent {so}",
+    consequence="a lookup of {lost} goes through the parent that was sent last before its time; a "
+    "lookup that needs the other parent {so}",
     causes=(
         "visual odometry or SLAM publishes odom to base_link beside the robot description",
         "a driver's base frame is a link below the root",
