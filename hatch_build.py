@@ -1,8 +1,9 @@
-"""The build hook: the native modules, where there is a C compiler and Python's headers.
+"""Build hook that compiles the native modules if there are a C compiler and Python's headers.
 
-Without either, on a Python that is not CPython or runs without a GIL, or with `TFTOOL_PURE=1`,
-the package is plain Python and means the same; `tftool --version` says which one runs. One build
-serves every CPython from 3.11 on. An editable install gets them next to the sources.
+Otherwise the package is plain Python, with equal results. It is also plain Python with another
+interpreter than CPython, without a GIL, or with `TFTOOL_PURE=1`. `tftool --version` prints which
+one runs. One build works with every CPython from 3.11 on. In an editable installation, the modules
+are put beside their sources.
 """
 
 import os
@@ -19,13 +20,13 @@ from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 SOURCES = ("tftool/buffer/_kernel.c", "tftool/messages/_scan.c")
 
-# The same operations in the same order as in Python: nothing fused, nothing reordered.
+# The compiler must not fuse or reorder operations, because results must equal those of Python.
 EXACT = ("-O3", "-std=c11", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math")
 
 WINDOWS = sys.platform == "win32"
 SUFFIX = ".pyd" if WINDOWS else ".abi3.so"
 
-# MSVC is found by setuptools, which knows where Visual Studio puts it.
+# On Windows, setuptools finds the compiler of Visual Studio.
 SETUP = """
 import sys
 from setuptools import Extension, setup
@@ -38,16 +39,16 @@ setup(name=name, packages=[], py_modules=[], ext_modules=[module])
 
 
 class KernelBuild(BuildHookInterface):  # type: ignore[misc]
-    """Build the native modules if that is possible here."""
+    """Build hook for the native modules."""
 
     PLUGIN_NAME = "custom"
 
     def dependencies(self) -> list[str]:
-        """What is needed to build, beyond hatchling."""
+        """Return the requirements of the build besides hatchling."""
         return ["setuptools>=65"] if WINDOWS else []
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
-        """Build it and put it into the wheel, or say why not."""
+        """Build the modules and put them into the wheel, or print why they are not built."""
         if self.target_name != "wheel":
             return
         if reason := unfit():
@@ -64,7 +65,7 @@ class KernelBuild(BuildHookInterface):  # type: ignore[misc]
             done.append((target, source.with_name(target.name)))
         for built, place in done:
             if version == "editable":
-                # A new file under the name: a program that runs keeps the one it has loaded.
+                # Replace the file, do not overwrite it: a running program may have loaded it.
                 copy = root / f"{place}.new"
                 shutil.copy(built, copy)
                 copy.replace(root / place)
@@ -74,15 +75,15 @@ class KernelBuild(BuildHookInterface):  # type: ignore[misc]
         build_data["tag"] = f"cp311-abi3-{platform()}"
 
     def finalize(self, version: str, build_data: dict[str, Any], artifact_path: str) -> None:
-        """Leave nothing behind."""
+        """Remove the temporary folder."""
         if hasattr(self, "folder"):
             shutil.rmtree(self.folder)
 
 
 def unfit() -> str:
-    """Why nothing is built on this Python; empty if it can be."""
+    """Return why the modules cannot be built for this Python; empty if they can."""
     if os.environ.get("TFTOOL_PURE", "") not in ("", "0"):
-        return "TFTOOL_PURE asks for it"
+        return "TFTOOL_PURE is set"
     if sys.implementation.name != "cpython":
         return f"the native modules are for CPython, and this is {sys.implementation.name}"
     if sysconfig.get_config_var("Py_GIL_DISABLED"):
@@ -93,7 +94,7 @@ def unfit() -> str:
 
 
 def build(source: Path, target: Path) -> str:
-    """Compile; why that failed, or an empty text."""
+    """Compile a source file; return the error, empty if there was none."""
     try:
         done = subprocess.run(
             command(source, target), capture_output=True, text=True, check=False, cwd=target.parent
@@ -110,15 +111,15 @@ def build(source: Path, target: Path) -> str:
 
 
 def command(source: Path, target: Path) -> list[str]:
-    """What compiles it. `CC`, `CFLAGS`, `LDFLAGS` and `ARCHFLAGS` are kept to, as is the custom."""
+    """Return the command that compiles a file, with `CC`, `CFLAGS`, `LDFLAGS` and `ARCHFLAGS`."""
     if WINDOWS:
         return [sys.executable, "-c", SETUP, str(source), source.stem, str(target.parent)]
     told = {name: shlex.split(os.environ.get(name, "")) for name in ("CC", "CFLAGS", "LDFLAGS")}
     compiler = told["CC"] or shlex.split(sysconfig.get_config_var("CC") or "cc")[:1]
     if shutil.which(compiler[0]) is None:
-        # Python may have been built elsewhere, by a compiler that is not here.
+        # Python may have been built on another machine, with a compiler that this machine lacks.
         compiler = ["cc"]
-    # Calls into Python go through no table of jumps: an insert takes 5 % less time.
+    # Call Python's functions without the procedure linkage table: an insert takes 5 % less time.
     kind = ["-shared", "-fno-plt"]
     if sys.platform == "darwin":
         kind = ["-bundle", "-undefined", "dynamic_lookup"]
@@ -129,5 +130,5 @@ def command(source: Path, target: Path) -> list[str]:
 
 
 def platform() -> str:
-    """The wheel's platform, as this Python has it."""
+    """Return the platform tag of the wheel for this Python."""
     return sysconfig.get_platform().replace("-", "_").replace(".", "_")

@@ -1,7 +1,7 @@
-"""The body of the action in action.yml: run each command that was asked for, and report.
+"""Script of the action in action.yml, which runs the requested commands and reports the results.
 
-Reads the action's inputs from INPUT_…, adds what every command printed to the summary of the job,
-and ends with the status of the worst command.
+The script reads the action's inputs from the variables INPUT_…, adds the output of each command to
+the summary of the job, and ends with the highest exit status of the commands.
 """
 
 import os
@@ -12,10 +12,10 @@ from pathlib import Path
 
 
 def commands(inputs: dict[str, str], reports: Path) -> list[list[str]]:
-    """Return the words of every command that the inputs ask for.
+    """Return the words of each command that the inputs request.
 
     Raises:
-        ValueError: If a quote has no partner, or nothing is asked for.
+        ValueError: If a quotation mark is not closed, or no command is requested.
     """
     found = []
     if doctor := shlex.split(inputs["DOCTOR"]):
@@ -35,7 +35,11 @@ def commands(inputs: dict[str, str], reports: Path) -> list[list[str]]:
 
 
 def run(words: list[str]) -> tuple[int, str]:
-    """Run a command; print what it prints, in a group of the log."""
+    """Run a command and print its output in a group of the log.
+
+    Returns:
+        The exit status, and the output as Markdown.
+    """
     line = shlex.join(["tftool", *words])
     print(f"::group::{line}", flush=True)
     done = subprocess.run(
@@ -46,7 +50,7 @@ def run(words: list[str]) -> tuple[int, str]:
         errors="replace",
         check=False,
     )
-    # A line that begins with two colons would be a command of the runner.
+    # The runner executes lines that begin with two colons; the blank prevents this.
     print("".join(f" {line}" for line in done.stdout.splitlines(keepends=True)), end="")
     print("::endgroup::", flush=True)
     if done.returncode:
@@ -56,12 +60,12 @@ def run(words: list[str]) -> tuple[int, str]:
 
 
 def _ticks(text: str) -> list[str]:
-    """Return every run of backquotes: the fence around the text is longer than any."""
+    """Return every run of backquotes in a text; a fence around the text must be longer."""
     return "".join(letter if letter == "`" else " " for letter in text).split()
 
 
 def main() -> int:
-    """Run what the inputs ask for; return the worst status."""
+    """Run the requested commands; return the highest exit status."""
     names = ("DOCTOR", "FAIL_ON", "BASELINE", "DIFF", "CHECK", "REPORTS")
     inputs = {name: os.environ.get(f"INPUT_{name}", "") for name in names}
     reports = Path(inputs["REPORTS"] or "tftool-reports")
