@@ -82,12 +82,13 @@ _unpack_pair: Final = struct.Struct("q7dq7d").unpack_from
 _SLACK: Final = 3
 _LEAST_SLACK: Final = 32
 
-# Free space after the newest sample: as many records as there are samples, within the first two
-# limits, or if that is more, 1/16 of all (a shift by the third number). Making space may copy all
-# records, so it must be rare.
+# Free space after the newest sample: three times as many records as there are samples, within the
+# first two limits, or if that is more, 1/16 of all (a shift by the third number). Making space may
+# copy all records, and costs as much as ten inserts, so it must be rare.
 _LEAST_ROOM: Final = 8
-_MOST_ROOM: Final = 256
+_MOST_ROOM: Final = 512
 _ROOM: Final = 4
+_EMPTY: Final = array("q", bytes(RECORD))
 
 # Number of records that fit into two large pages of memory.
 _MANY: Final = 2 * PAGE // RECORD
@@ -593,8 +594,8 @@ class History(Fields):
     def _have_room(self) -> None:
         """Reserve space after the newest sample, for samples that the C module inserts."""
         if self.count == len(self.records) // WORDS:
-            room = max(_LEAST_ROOM, min(self.count, _MOST_ROOM), self.count >> _ROOM)
-            self._splice(self.count, self.count, array("q", bytes(RECORD * room)))
+            room = max(_LEAST_ROOM, min(3 * self.count, _MOST_ROOM), self.count >> _ROOM)
+            self._splice(self.count, self.count, _EMPTY * room)
 
     # Insertion of many samples
 
