@@ -140,6 +140,21 @@ def test_odometry_that_repeats_its_pose_with_new_stamps_moves_in_steps():
             assert "a new pose every 200 ms, 0.10 m" in told[0].evidence[0]
 
 
+def test_the_time_between_poses_is_that_of_their_stamps_if_two_streams_alternate():
+    def pose(t: float) -> tuple[float, ...]:
+        return (0.05 * int(10.0 * t + 1e-6), 0.0, 0.0, *NO_TURN)
+
+    made = robot(odometry=False, scans=False)
+    for tick in range(800):
+        made.sent("odom", "base_link", 0.01 * tick, pose(0.01 * tick))
+        if tick % 5 == 0:
+            made.sent("odom", "base_link", 0.01 * tick + 1e-4, pose(0.01 * tick))
+    finding = found(made, "repeated-pose")
+    # Ten samples and two of the second stream have one pose.
+    assert "91.7 % of the samples" in finding.message
+    assert "a new pose every 100 ms, 50 mm" in finding.evidence[0]
+
+
 def test_a_localiser_that_takes_back_the_odometry_is_told():
     for share, told in ((1.0, ["odometry-cancelled"]), (0.1, [])):
         made = robot()

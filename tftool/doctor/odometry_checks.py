@@ -4,14 +4,14 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from tftool.base.stamps import NANOSECONDS, Stamp
+from tftool.base.stamps import NANOSECONDS, Stamp, seconds
 from tftool.doctor.check import checks_of, hit_of
 from tftool.doctor.findings import Area, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_stream import BASES, Track, last_part
 from tftool.doctor.wording import metres
 from tftool.geometry.rigid_arrays import Floats, angles_between, rotate, unit
-from tftool.recordings.contract import percentile
+from tftool.recordings.contract import median, percentile
 
 check = checks_of(Area.VALUES)
 
@@ -227,8 +227,8 @@ def negative_variance(model: Model, limits: Limits) -> Iterator[Hit]:
     "more. A warning if the median change is {metres:g} m or {degrees:g}° or more",
     headline="{where} {concerned:moves|move} in steps: while the robot moves, {repeated:%} of the "
     "samples repeat the pose before",
-    detail="{edge}: a sample every {period:span}, a new pose every {every:span}, {jump:m} and "
-    "{turn:deg} further (medians)",
+    detail="{edge}: {moved:,} new poses in {samples:,} samples; by the stamps, a new pose every "
+    "{every:span}, {jump:m} and {turn:deg} further (medians; 5 % turn by {far:deg} or more)",
     consequence="between two samples, the robot seems to stand or to move too fast: sensor data is "
     "placed up to one step off",
     causes=("a node that sends its last measurement at a higher rate than that of the encoders",),
@@ -246,27 +246,33 @@ def repeated_pose(model: Model, limits: Limits) -> Iterator[Hit]:
         places = track.by_stamp
         turned = track.turned(places[1:], places[:-1])
         changes = np.flatnonzero((track.strides > 1e-6) | (turned > 1e-6))
-        apart = np.diff(changes)
-        moving = apart[apart <= _STANDS]
-        if len(moving) < limits["samples"]:
+        if len(changes) <= limits["samples"]:
             continue
-        repeated = 1.0 - len(moving) / int(moving.sum())
-        if repeated < limits["share"]:
+        # The period of the samples says nothing: two streams of a transform may alternate.
+        between = np.diff(track.sorted_stamps[changes + 1])
+        every = int(median(between))
+        moving = between <= min(3 * every, _STANDS)
+        new, samples = int(np.count_nonzero(moving)), int(np.diff(changes)[moving].sum())
+        if new < limits["samples"] or 1.0 - new / samples < limits["share"]:
             continue
+        changes = changes[1:][moving]
         far, wide = float(np.median(track.strides[changes])), float(np.median(turned[changes]))
         is_coarse = far > limits["metres"] or wide > np.radians(limits["degrees"])
         facts = {
-            "repeated": repeated,
+            "repeated": 1.0 - new / samples,
+            "moved": new,
+            "samples": samples,
             "period": track.period,
-            "every": int(np.median(moving)) * track.period,
+            "every": int(median(between[moving])),
             "jump": far,
             "turn": wide,
+            "far": percentile(turned[changes], 95),
         }
         yield hit_of(track, facts, severity=Severity.WARNING if is_coarse else None)
 
 
-_STANDS = 8
-"""Number of samples with one pose after which a robot stands."""
+_STANDS = seconds(0.5)
+"""Time, nanoseconds, without a new pose after which a robot stands."""
 
 
 @check(
