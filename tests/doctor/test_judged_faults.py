@@ -474,13 +474,13 @@ def test_a_late_transform_with_odometry_in_time_does_not_blame_the_clocks():
         at = 0.25 * tick
         made.odometry.sent("odom", "base_link", at + 0.6, weaves(at), topic="/odom", latency=0.003)
     cure = found(made, "stale-stamp").fixes[0].text
-    assert "/odom brings the same poses 3" in cure
+    assert "/odom has the same poses, stamped 600 ms later" in cure
     assert "clocks" not in cure
     # A driver that negates y in one of the two sends the same poses, too.
     for rows in made.odometry.records.values():
         rows[:] = [(stamp, (x, -y, *rest), number) for stamp, (x, y, *rest), number in rows]
     cure = found(made, "stale-stamp").fixes[0].text
-    assert "/odom brings the same poses (with another sign of y) 3" in cure
+    assert "/odom has the same poses (with another sign of y), stamped 600 ms later" in cure
 
 
 def test_a_robot_that_the_world_loses_for_seconds_is_a_warning():

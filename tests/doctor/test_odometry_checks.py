@@ -1,5 +1,6 @@
 """The checks of jumps and of odometry messages, each on a small robot of its own."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -10,10 +11,11 @@ pytest.importorskip("rosbags", reason="writes the test files")
 from rosbags.rosbag1 import Writer
 from rosbags.typesys import Stores, get_typestore
 
-from tests.doctor.judged import found, ids
+from tests.doctor.judged import found, ids, turned
 from tests.doctor.robots import NO_TURN, Robot, drives, robot, stands
 from tests.recordings.writers import ROS1
 from tftool import open_recording
+from tftool.base.stamps import seconds
 from tftool.doctor.evidence import evidence_of
 from tftool.doctor.findings import Severity
 from tftool.doctor.judge import judge
@@ -78,6 +80,52 @@ def test_a_filter_far_below_the_positions_that_it_uses():
     assert "z is first -800.00 m in tf, 0 mm there" in finding.evidence[0]
     # A drift that is shorter than ten metres beyond the way is no fault.
     assert ids(far_away(-8.0)) == []
+
+
+def curve(t: float) -> tuple[float, ...]:
+    """Return the pose of a robot that drives a left turn with a radius of 2 m at 0.2 m/s."""
+    angle = 0.1 * t
+    return (2.0 * math.sin(angle), 2.0 - 2.0 * math.cos(angle), 0.0, *turned(angle))
+
+
+def mirrored(t: float) -> tuple[float, ...]:
+    x, y, *rest = curve(t)
+    return (x, -y, *rest)
+
+
+def sideways(t: float) -> tuple[float, ...]:
+    """Return the pose of a robot that moves along its y axis only."""
+    return (0.0, 0.2 * t, 0.0, *NO_TURN)
+
+
+@pytest.mark.parametrize(
+    ("in_tf", "in_message", "told"),
+    [
+        (mirrored, curve, "only in /odom"),
+        (curve, mirrored, "only in tf"),
+        (sideways, lambda t: (0.0, -0.2 * t, 0.0, *NO_TURN), "in tf"),
+        (curve, curve, None),
+    ],
+)
+@pytest.mark.parametrize("shift", [0.0, 0.5])
+def test_a_y_of_the_opposite_sign_is_told_and_the_motion_shows_which_is_wrong(
+    in_tf, in_message, told, shift
+):
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", 10.0, in_tf)
+    made.odometry = Robot()
+    for tick in range(80):
+        at = 0.1 * tick
+        stamp = seconds(made.start + at + shift)
+        made.odometry.sent("odom", "base_link", at, in_message(at), topic="/odom", stamp=stamp)
+    if told is None:
+        assert "odometry-tf-mismatch" not in ids(made)
+        return
+    finding = found(made, "odometry-tf-mismatch")
+    assert finding.severity is Severity.WARNING
+    assert finding.message == "/odom and tf have y of opposite signs for base_link in odom"
+    assert finding.evidence[0].endswith(told)
+    assert ("the publisher of" in finding.fixes[0].text) is ("only" in told)
 
 
 def test_negative_variances_are_read_from_the_messages(tmp_path):

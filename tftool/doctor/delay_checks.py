@@ -10,7 +10,7 @@ from tftool.doctor.findings import STALE_AFTER, Area, Fact, Fix, Hit, Severity
 from tftool.doctor.gap_checks import is_detection
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_checks import COMPARE_CLOCKS, stands_still
-from tftool.doctor.stamp_stream import Heard, Mask, Places, Track, last_part
+from tftool.doctor.stamp_stream import ROUNDED, Heard, Track, are_same, last_part
 from tftool.doctor.wording import moment, several, span
 from tftool.recordings.contract import percentile
 
@@ -189,18 +189,20 @@ def _in_time(model: Model, track: Track, least: float) -> Hit | None:
         after = np.searchsorted(other.logs, track.logs)
         own = np.arange(len(track.stamps))
         near = [np.clip(after + step, 0, len(other.logs) - 1) for step in (-1, 0)]
-        same = [_are_same(track, own, other, one) for one in near]
+        same = [are_same(track, own, other, one) for one in near]
         if np.mean(same[0] | same[1]) < _SAME_POSES:
             continue
-        told = other.translations[np.where(same[1], near[1], near[0])]
-        signs = (np.abs(track.translations - told) > _ROUNDED).mean(axis=0) > 0.5
+        rows = np.where(same[1], near[1], near[0])
+        told = other.translations[rows]
+        later = (other.stamps[rows] - track.stamps)[same[0] | same[1]]
+        signs = (np.abs(track.translations - told) > ROUNDED).mean(axis=0) > 0.5
         axes = [axis for axis, differs in zip("xyz", signs.tolist(), strict=True) if differs]
         but = f" (with another sign of {', '.join(axes)})" if axes else ""
         topic = other.topics[0]
         facts = {"what": track.name, "late": track.median_latency, "varies": "", **_MEDIAN}
         cure = (
-            f"{topic} brings the same poses{but} {span(latency)} after their stamps: look at where "
-            "the publisher of the transform takes its stamps from"
+            f"{topic} has the same poses{but}, stamped {span(int(np.median(later)))} later: look "
+            "at where the publisher of the transform takes its stamps from"
         )
         return hit_of(track, facts, severity=Severity.WARNING, fixes=(Fix(cure),))
     return None
@@ -211,25 +213,6 @@ _FEWEST_POSES = 10
 
 _SAME_POSES = 0.8
 """Minimum share of a transform's samples with the pose of an Odometry message."""
-
-
-_ROUNDED = 1e-4
-"""Difference of coordinates, metres, within which two poses are one."""
-
-
-def _are_same(track: Track, some: Places, other: Track, others: Places) -> Mask:
-    """Return a mask of the pairs of samples with equal poses, except for signs of x, y and z.
-
-    Args:
-        track: First stream of transforms.
-        some: Rows in `track`, shape (n,).
-        other: Second stream of transforms.
-        others: Rows in `other`, shape (n,).
-    """
-    mine, theirs = np.abs(track.translations[some]), np.abs(other.translations[others])
-    apart = np.abs(mine - theirs).max(axis=1)
-    dots = np.einsum("ij,ij->i", track.rotations[some], other.rotations[others])
-    return np.asarray((apart < _ROUNDED) & (np.abs(dots) > 1.0 - 1e-6))
 
 
 def _late(model: Model, stream: "Track | Heard") -> Hit:

@@ -8,7 +8,7 @@ from tftool.base.stamps import NANOSECONDS, Stamp, seconds
 from tftool.doctor.check import checks_of, hit_of
 from tftool.doctor.findings import Area, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
-from tftool.doctor.stamp_stream import BASES, Track, last_part
+from tftool.doctor.stamp_stream import BASES, ROUNDED, Track, are_same, last_part
 from tftool.doctor.wording import metres
 from tftool.geometry.rigid_arrays import Floats, angles_between, rotate, unit
 from tftool.recordings.contract import median, percentile
@@ -23,7 +23,8 @@ check = checks_of(Area.VALUES)
     "by more than {metres:g} m or {degrees:g}°, in a share above {share:g} of such pairs; or "
     "tf has no transform between these frames. A warning if a position in the message and "
     "one in tf, from any publisher and within {near:g} s, differ by more than {far:g} m and "
-    "by more than the robot moved",
+    "by more than the robot moved. A warning also if {poses:g} poses or more, with |y| above "
+    "{aside:g} m, are equal except for the sign of y, and no such pose has the same sign",
     headline="{topic} {differs} {edge}",
     detail="{found}",
     consequence="programs that use the message and programs that use tf may see the robot in "
@@ -32,7 +33,15 @@ check = checks_of(Area.VALUES)
         "the message is the wheels', the transform a filter's",
         "the filter's publish_tf is off and another node sends the transform",
     ),
-    limits={"metres": 0.05, "degrees": 2.0, "share": 0.5, "near": 0.5, "far": 10.0},
+    limits={
+        "metres": 0.05,
+        "degrees": 2.0,
+        "share": 0.5,
+        "near": 0.5,
+        "far": 10.0,
+        "poses": 10,
+        "aside": 0.005,
+    },
     needs=("odometry",),
     because_of=(
         ("frame", "rep105-shape"),
@@ -57,6 +66,7 @@ def odometry_tf_mismatch(model: Model, limits: Limits) -> Iterator[Hit]:
         hit = None
         if not track.static and len(track.by_stamp):
             hit = _far_apart(track, told, topic, limits)
+            hit = hit or _mirrored(track, told, topic, limits)
             hit = hit or _disagreement(track, told, topic, model.end, limits)
         if hit is not None:
             yield hit
@@ -156,6 +166,76 @@ def _disagreement(
         fixes=(Fix(f"look which nodes publish the two: `{{publishers}} {track.topics[0]}`"),),
         alone=True,
     )
+
+
+def _mirrored(track: Track, odometry: Track, topic: str, limits: Limits) -> Hit | None:
+    """Return a hit if poses in tf and in Odometry are equal except for the sign of y; else None.
+
+    The stamps may differ: a pose is compared with the samples of tf that arrived before and after.
+    """
+    if not len(track.stamps):
+        return None
+    after = np.searchsorted(track.logs, odometry.logs)
+    near = [np.clip(after + step, 0, len(track.logs) - 1) for step in (-1, 0)]
+    own = np.arange(len(odometry.logs))
+    aside = np.abs(odometry.translations[:, 1]) > limits["aside"]
+    y = odometry.translations[:, 1]
+    same, other = np.zeros(len(own), dtype=np.bool_), np.zeros(len(own), dtype=np.bool_)
+    for rows in near:
+        equal = aside & are_same(track, rows, odometry, own)
+        away = np.abs(track.translations[rows] - odometry.translations)
+        equal &= away[:, [0, 2]].max(axis=1) < ROUNDED
+        opposite = y * track.translations[rows, 1] < 0.0
+        same |= equal & ~opposite
+        other |= equal & opposite
+    poses = len(np.unique(odometry.translations[other], axis=0))
+    if same.any() or poses < limits["poses"] or 2 * np.count_nonzero(other) < aside.sum():
+        return None
+    first, last = np.flatnonzero(other)[[0, -1]].tolist()
+    # A robot with wheels moves in the direction of its x axis, not of its y axis.
+    mine, theirs = _sideways(track), _sideways(odometry)
+    wrong = track.name if mine > _PROVED * theirs else ""
+    wrong = topic if theirs > _PROVED * mine else wrong
+    right = {"": "", topic: "tf"}.get(wrong, topic)
+    fits = f"; its motion fits its yaw only in {right}" if wrong else ""
+    cure = f"look at the sign of y in the publisher of {wrong}"
+    if not wrong:
+        cure = "drive forward at a yaw of 90°: y must increase; the other one is wrong"
+    return Hit(
+        edges=(track.edge,),
+        topics=odometry.topics,
+        publishers=tuple(dict.fromkeys((*track.nodes, *odometry.nodes))),
+        since=int(odometry.logs[first]),
+        count=int(np.count_nonzero(other)),
+        facts={
+            "topic": topic,
+            "edge": track.name,
+            "differs": "and tf have y of opposite signs for",
+            "apart": 2.0 * float(np.median(np.abs(y[other]))),
+            "turned": 0.0,
+            "found": f"{np.count_nonzero(other)} of {np.count_nonzero(aside)} messages with |y| "
+            f"above {metres(limits['aside'])}: x and rotation are equal; in the last one, y is "
+            f"{metres(float(y[last]))}, and {metres(-float(y[last]))} in tf{fits}",
+        },
+        severity=Severity.WARNING,
+        fixes=(Fix(cure),),
+        alone=True,
+    )
+
+
+_PROVED = 3.0
+"""Ratio of motions along the robot's y axis from which the larger one has the wrong sign of y."""
+
+
+def _sideways(track: Track) -> float:
+    """Return the root of the sum of squares of a robot's motions along its own y axis, metres."""
+    turns = unit(track.rotations)
+    moved = np.diff(track.translations, axis=0)
+    # The mean of two near rotations; q and -q are the same rotation.
+    signs = np.where(np.einsum("ij,ij->i", turns[1:], turns[:-1]) < 0.0, -1.0, 1.0)
+    middle = unit(turns[1:] * signs[:, None] + turns[:-1])
+    middle[:, :3] *= -1.0
+    return float(np.linalg.norm(rotate(middle, moved)[:, 1]))
 
 
 def _far_apart(track: Track, odometry: Track, topic: str, limits: Limits) -> Hit | None:

@@ -38,6 +38,9 @@ FEW = 0.01
 ZERO_QUATERNION = 1e-12
 """Squared length of a rotation below which tf2 drops the sample."""
 
+ROUNDED = 1e-4
+"""Difference of coordinates, metres, within which two poses are one."""
+
 
 class Stream:
     """Stamped items (samples or headers) in the order of their log times.
@@ -495,3 +498,18 @@ def family(name: str) -> str:
 def last_part(name: str) -> str:
     """Return the part of a name after the last slash."""
     return name.rsplit("/", 1)[-1]
+
+
+def are_same(track: Track, some: Places, other: Track, others: Places) -> Mask:
+    """Return a mask of the pairs of samples with equal poses, except for signs of x, y and z.
+
+    Args:
+        track: First stream of transforms.
+        some: Rows in `track`, shape (n,).
+        other: Second stream of transforms.
+        others: Rows in `other`, shape (n,).
+    """
+    mine, theirs = np.abs(track.translations[some]), np.abs(other.translations[others])
+    apart = np.abs(mine - theirs).max(axis=1)
+    dots = np.einsum("ij,ij->i", track.rotations[some], other.rotations[others])
+    return np.asarray((apart < ROUNDED) & (np.abs(dots) > 1.0 - 1e-6))
