@@ -22,6 +22,19 @@ def test_a_short_gap_of_motion_capture_across_a_large_turn_is_told(speed, told):
         assert "across it: 81.6° and 0.16 m" in found(made, "gap").evidence[0]
 
 
+@pytest.mark.parametrize(("begin", "told"), [(0.4, ["gap"]), (0.1, [])])
+def test_a_gap_in_the_first_second_is_told_after_ten_samples(begin, told):
+    def turns(t: float) -> Pose:
+        return (0.5 * t, 0.0, 1.0, *turned(4.5 * t))
+
+    made = Robot()
+    made.moving("world", "drone", 60.0, turns, without=(begin, begin + 0.3))
+    assert ids(made) == told
+    # Without samples from 8 s to 8.3 s.
+    made.moving("world", "drone", 60.0, turns, begin=8.3, end=12.0)
+    assert "one of 2 gaps above 250 ms" in found(made, "gap").evidence[0]
+
+
 @pytest.mark.parametrize(
     ("speed", "severity"), [(3.0, Severity.WARNING), (0.3, Severity.WARNING), (0.1, Severity.NOTE)]
 )

@@ -237,8 +237,9 @@ def is_detection(model: Model, track: Track) -> bool:
     "below {note:g} s. A note also if no scan, point cloud or range in the frame or below it "
     "has a stamp in the gap, unless the transform places a robot in the world. A transform "
     "that places a robot in the world is also reported for {times:g} gaps of {again:g} s and "
-    "{missed:g} periods or more, and for a gap of {lost:g} s and {lost_periods:g} periods "
-    "or more across which it turns by {turned:g}°. A transform with one exact period is also "
+    "{missed:g} periods or more, if the last one is more than 1 s after its first sample, and for "
+    "a gap of {lost:g} s and {lost_periods:g} periods or more, after {samples:g} samples or more, "
+    "across which it turns by {turned:g}°. A transform with one exact period is also "
     "reported if a share of {share:g} and {few:g} samples or more are missing. A note if it "
     "turns by less than {lossy:g}° across each of these gaps, if no gap reaches {short:g} s, and "
     "for a part of a robot that no sensor uses",
@@ -380,10 +381,12 @@ def _turned_or_lossy(model: Model, track: Track, limits: Limits) -> Hit | None:
         return None
     turned = np.degrees(track.turned(track.by_stamp[wide + 1], track.by_stamp[wide]))
     small = {**limits, "seconds": limits["lost"], "periods": limits["lost_periods"]}
-    long = (steps[wide] > _least_gap(track, small)) & (turned > limits["turned"])
-    place = int(np.where(long, turned, 0.0).argmax())
+    long = steps[wide] > _least_gap(track, small)
+    # A publisher that has just started may pause once.
+    far = long & (turned > limits["turned"]) & (wide >= limits["samples"] - 1)
+    place = int(np.where(far, turned, 0.0).argmax())
     often, severity = "", Severity.WARNING
-    if not (long[place] and _places_robot(model, track, int(track.sorted_stamps[wide[place]]))):
+    if not (far[place] and _places_robot(model, track)):
         often = _loss(track, steps, limits)
         if not often:
             return None
@@ -394,6 +397,12 @@ def _turned_or_lossy(model: Model, track: Track, limits: Limits) -> Hit | None:
     worst = int(wide[place])
     begin, end = int(track.sorted_stamps[worst]), int(track.sorted_stamps[worst + 1])
     moved = metres(_robot_moves(model, track, track.by_stamp[worst : worst + 2]))
+    number, total = int(np.count_nonzero(long)), span(int(steps[wide[long]].sum()))
+    several_gaps = ""
+    if not often and number > 1:
+        several_gaps = (
+            f"; one of {number} gaps above {span(_least_gap(track, small))}, {total} in all"
+        )
     silent = sorted({heard.topic for heard in model.heard if _is_silent(heard, begin, end)})
     cure = _SOURCE if silent else _publisher_at(model, track, begin, end)
     return hit_of(
@@ -407,11 +416,11 @@ def _turned_or_lossy(model: Model, track: Track, limits: Limits) -> Hit | None:
             "also": [],
             "beside": f"; at the same time: {several(silent)}" if silent else "",
             "unusable": 0,
-            "why": f"; across it: {turned[place]:.3g}° and {moved}",
+            "why": f"; across it: {turned[place]:.3g}° and {moved}{several_gaps}",
         },
         since=begin,
         until=end,
-        count=1,
+        count=1 if often else number,
         severity=severity,
         fixes=(cure,),
     )
@@ -452,13 +461,14 @@ def _repeated(model: Model, track: Track, limits: Limits) -> list[tuple[int, int
     return found if is_told else []
 
 
-def _places_robot(model: Model, track: Track, begin: int) -> bool:
+def _places_robot(model: Model, track: Track, begin: int = NEVER) -> bool:
     """Whether an edge is the pose of a moving robot in odom or a world frame.
 
     Args:
         model: Model of the evidence.
         track: The edge.
-        begin: Last stamp before a gap of the edge.
+        begin: Last stamp before a gap of the edge. If it is in the first second of the edge, the
+            result is False.
     """
     parent = last_part(track.parent)
     if not (is_world(track.parent) or parent.startswith("odom")) or track.is_localisation:
