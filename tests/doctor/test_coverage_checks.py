@@ -109,6 +109,11 @@ def test_a_recording_without_statics_of_a_robot_at_rest_lacks_their_topic():
     assert ids(made) == ["static-missing"]
     finding = found(made, "static-missing")
     assert finding.frames == ("back_laser_link", "front_laser_link")
+    # Nothing shows whether the robot sends them.
+    assert finding.fixes[1].text == (
+        "if nothing sends them, publish the mount for each of the frames:"
+    )
+    assert finding.fixes[1].command.endswith("--frame-id PARENT --child-frame-id back_laser_link")
     # Whether the robot has statics is unknown, as nobody recorded their topic.
     assert finding.severity is Severity.WARNING
 

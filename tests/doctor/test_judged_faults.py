@@ -914,3 +914,12 @@ def test_a_robot_that_stays_in_the_map_may_have_wrong_odometry():
     made.moving("odom", "base_link", pose=lambda t: (t, 0.0, 0.0, *NO_TURN))
     made.moving("map", "odom", pose=lambda t: (-t, 0.0, 0.0, *NO_TURN))
     assert "either the odometry or" in found(made, "odometry-cancelled").consequence
+
+
+def test_topics_without_a_position_in_an_unknown_frame_are_named():
+    made = Robot()
+    made.moving("odom", "base_link")
+    made.hears("/imu_data", "base_imu", kind="sensor_msgs/Imu")
+    made.hears("/temperature", "base_imu", kind="sensor_msgs/Temperature")
+    (finding,) = [one for one in made.judged().findings if one.id == "unknown-frame"]
+    assert "also in this frame, without a position: /temperature" in finding.evidence[0]

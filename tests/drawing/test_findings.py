@@ -79,6 +79,27 @@ def test_stamps_that_are_days_old_are_not_called_fine():
     assert clocks.endswith("stamps of tf are 24 days before their arrival")
 
 
+def test_transforms_dated_ahead_have_no_tick_if_there_is_a_note_about_them():
+    for latency, ticks in ((-0.205, 0), (0.005, 1)):
+        made = robot(odometry=False, scans=False)
+        made.moving("odom", "base_link", latency=latency)
+        rows = shown(findings.render(made.judged())).splitlines()
+        (clocks,) = [row for row in rows if "clocks" in row]
+        assert clocks.count("✓") == ticks
+        assert ("tf dated 205 ms ahead" in clocks) is not bool(ticks)
+
+
+def test_a_late_transform_does_not_hide_that_all_stamps_are_shifted():
+    made = robot(odometry=False, scans=False, log_from=START + 24 * 86_400)
+    made.moving("odom", "base_link", latency=1.5, node="/base")
+    made.moving("base_link", "wheel", node="/base")
+    made.hears("/odom", "odom", 50.0, "nav_msgs/Odometry")
+    made.hears("/scan", "laser", 10.0)
+    told = shown(findings.render(made.judged()))
+    assert "warning  stale-stamp" in told
+    assert "clocks: most stamps are 24 days before their arrival" in told
+
+
 def test_notes_are_counted_and_shown_on_request():
     made = robot()
     made.hears("/image", "laser", kind="sensor_msgs/Image")

@@ -12,7 +12,7 @@ from tftool.base.stamps import NANOSECONDS
 from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Fix, Hit, Severity
 from tftool.doctor.gap_checks import gap, holes
-from tftool.doctor.missing_joins import has_base, is_mount
+from tftool.doctor.missing_joins import has_base, is_mount, static_publisher
 from tftool.doctor.model import WARM_UP, Limits, Model
 from tftool.doctor.stamp_checks import stands_still
 from tftool.doctor.stamp_stream import NEVER, PLACED, Heard, Track, last_part
@@ -68,6 +68,12 @@ def static_missing(model: Model, limits: Limits) -> Iterator[Hit]:
             "look whether robot_state_publisher runs; if not, start it with the robot's description"
         )
     names = sorted({heard.frame for heard in unknown})
+    fixes = [Fix(cure)]
+    if not model.lacks_state_publisher:
+        child = names[0].removeprefix("/")
+        command = static_publisher("PARENT", child, ros1=is_ros1(model.evidence))
+        each = " for each of the frames" if len(names) > 1 else ""
+        fixes.append(Fix(f"if nothing sends them, publish the mount{each}:", command))
     yield Hit(
         frames=tuple(names),
         topics=tuple(sorted({heard.topic for heard in unknown})),
@@ -76,7 +82,7 @@ def static_missing(model: Model, limits: Limits) -> Iterator[Hit]:
         severity=None
         if static and has_base(model) and any(last_part(heard.type) in PLACED for heard in unknown)
         else Severity.WARNING,
-        fixes=(Fix(cure),),
+        fixes=tuple(fixes),
         alone=True,
     )
 

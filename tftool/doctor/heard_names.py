@@ -66,11 +66,16 @@ def unknown_frame(model: Model, limits: Limits) -> Iterator[Hit]:
         robots = [] if is_world(name) else _sharing(heards)
         if robots:
             hint += f"; {len(robots)} robots use this name: {', '.join(robots)}"
+        told = {heard.topic for heard in heards}
         first = min(int(heard.logs[0]) for heard in heards)
         fixes = _renames(model, name, alike, heards)
         raw, node = _raw_input(model, name) if fixes[0] == _FIND_IT else ([], "")
         if raw:
+            told |= {heard.topic for heard in raw}
             fixes = (Fix(f"{node} sends them: look whether its localiser ran and was recorded"),)
+        more = sorted({h.topic for h in model.heard if h.frame == name} - told)
+        if more:
+            hint += f"; also in this frame, without a position: {several(more, 3)}"
         yield Hit(
             frames=(name,),
             topics=tuple(sorted(heard.topic for heard in heards)),

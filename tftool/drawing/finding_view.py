@@ -19,7 +19,7 @@ from tftool.base.stamps import Stamp, as_seconds
 from tftool.doctor.check import Check
 from tftool.doctor.findings import Area, Confidence, Finding, Severity
 from tftool.doctor.judge import CHECKS, Diagnosis
-from tftool.doctor.model import Model
+from tftool.doctor.model import Model, Shift
 from tftool.doctor.stamp_stream import WILD, Heard, Stream, Track, rate
 from tftool.doctor.wording import MOST_IN_LINE, filled, in_words, several, span
 from tftool.drawing import report_view as judgements
@@ -140,11 +140,21 @@ def _last_arrival(model: Model) -> Stamp:
 
 def areas(diagnosis: Diagnosis) -> str:
     """Return a line with the areas (groups of checks) that have no finding."""
-    return " · ".join(
+    model = diagnosis.model
+    told = [
         f"{area.value}: {reason}" if reason else f"{area.value} fine{_latencies(model, area)}"
-        for model in [diagnosis.model]
         for area, reason in _fine(diagnosis)
-    )
+    ]
+    # A shown finding about clocks replaces the line of the area, but may not name the shift.
+    shown = {one.id for one in diagnosis.findings if one.is_shown and one.area is Area.CLOCKS}
+    if shown and model.shift is not None and not shown & {"shifted-clock", "clock-offset"}:
+        told.append(f"{Area.CLOCKS.value}: {_shifted(model.shift)}")
+    return " · ".join(told)
+
+
+def _shifted(shift: Shift) -> str:
+    side = "before" if shift.by > 0 else "after"
+    return f"most stamps are {span(abs(shift.by))} {side} their arrival"
 
 
 def _clean(diagnosis: Diagnosis) -> Table:
@@ -187,6 +197,7 @@ def _sources(model: Model) -> str:
 def _fine(diagnosis: Diagnosis) -> list[tuple[Area, str]]:
     """Return the areas (groups of checks) without a finding, each with "" or a note on skipping."""
     wrong = {finding.area for finding in diagnosis.findings if finding.is_shown}
+    noted = {finding.id for finding in diagnosis.findings if finding.because_of is None}
     skipped = {one.id: one.reason for one in diagnosis.skipped}
     told = []
     for area in Area:
@@ -197,8 +208,9 @@ def _fine(diagnosis: Diagnosis) -> list[tuple[Area, str]]:
         if len(reasons) == 1 and all(check.id in skipped for check in checks):
             told.append((area, f"skipped, {reasons.pop()}"))
         elif area is Area.CLOCKS and (shift := diagnosis.model.shift) is not None:
-            side = "before" if shift.by > 0 else "after"
-            told.append((area, f"most stamps are {span(abs(shift.by))} {side} their arrival"))
+            told.append((area, _shifted(shift)))
+        elif area is Area.CLOCKS and "future-stamp" in noted:
+            told.append((area, _latencies(diagnosis.model, area).strip(" ()")))
         elif area is Area.CLOCKS and (off := _far_off(diagnosis.model)):
             told.append((area, off))
         else:
