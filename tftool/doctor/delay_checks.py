@@ -150,8 +150,6 @@ def _is_regular_pose(heard: Heard) -> bool:
 _REGULAR = 0.95
 """Minimum fraction of steps between stamps that are near the period of a regular topic."""
 
-_MEDIAN = {"upto": "", "of": "median"}
-
 _FEWEST_LATE = 50
 """Minimum number of samples for a judgement of the latest tenth."""
 
@@ -199,7 +197,7 @@ def _in_time(model: Model, track: Track, least: float) -> Hit | None:
         axes = [axis for axis, differs in zip("xyz", signs.tolist(), strict=True) if differs]
         but = f" (with another sign of {', '.join(axes)})" if axes else ""
         topic = other.topics[0]
-        facts = {"what": track.name, "late": track.median_latency, "varies": "", **_MEDIAN}
+        facts = {"what": track.name, "late": track.median_latency, "varies": "", **_median(model)}
         cure = (
             f"{topic} has the same poses{but}, stamped {span(int(np.median(later)))} later: look "
             "at where the publisher of the transform takes its stamps from"
@@ -215,6 +213,13 @@ _SAME_POSES = 0.8
 """Minimum share of a transform's samples with the pose of an Odometry message."""
 
 
+def _median(model: Model) -> dict[str, Fact]:
+    """Return the facts of a median latency; a shifted clock's offset is not part of it."""
+    shift = model.shift
+    apart = "" if shift is None else f", apart from the {span(abs(shift.by))} of the clock"
+    return {"upto": "", "of": f"median{apart}"}
+
+
 def _late(model: Model, stream: "Track | Heard") -> Hit:
     low, high = (int(percentile(stream.latency, percent)) for percent in (10, 90))
     varies = f", from {span(low)} to {span(high)} for 80 %" if high - low > _STEADY else ""
@@ -227,7 +232,7 @@ def _late(model: Model, stream: "Track | Heard") -> Hit:
                 f"{other.topic} has the same stamps, {span(other.median_latency)} late: these "
                 "messages wait in their publisher or on their way, and no clock is wrong"
             )
-    facts = {"what": stream.name, "late": stream.median_latency, "varies": varies, **_MEDIAN}
+    facts = {"what": stream.name, "late": stream.median_latency, "varies": varies, **_median(model)}
     if isinstance(stream, Track) and not shown and 2 * (high - low) < stream.median_latency:
         prompt = _prompt_beside(model, stream)
         if prompt:
