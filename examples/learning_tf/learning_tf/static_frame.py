@@ -16,7 +16,7 @@ class StaticFrame(Node):
         t.header.frame_id = "world"
         t.child_frame_id = "shelf"
         t.transform.translation.z = 1.0
-        # A rotation is a quaternion; w = 1 and the rest 0 means: not turned.
+        # A rotation is a quaternion; with w = 1 and x = y = z = 0 there is no rotation.
         t.transform.rotation.w = 1.0
         self.broadcaster.sendTransform(t)
 

@@ -1,4 +1,4 @@
-"""Steer turtle2 to where turtle1 was three seconds ago."""
+"""Steer turtle2 to the pose that turtle1 had three seconds ago."""
 
 import math
 
@@ -36,7 +36,7 @@ class TimeTraveller(Node):
                 target_time=now,
                 source_frame="turtle1",
                 source_time=now - self.delay,
-                # Two moments need a frame that has not moved between them.
+                # A lookup with two times needs a frame that does not move between them.
                 fixed_frame="world",
             )
         except TransformException as refused:

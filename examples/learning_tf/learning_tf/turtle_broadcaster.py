@@ -1,4 +1,4 @@
-"""Tell where a turtle is in the world, each time its simulator tells its pose."""
+"""Broadcast a turtle's pose in the world each time the simulator publishes it."""
 
 import math
 

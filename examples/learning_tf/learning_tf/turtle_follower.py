@@ -1,4 +1,4 @@
-"""Spawn turtle2 and steer it to a frame, by asking where that frame is as turtle2 sees it."""
+"""Spawn turtle2, and steer it to a frame by looking up the frame relative to turtle2."""
 
 import math
 
@@ -14,7 +14,7 @@ class TurtleFollower(Node):
     def __init__(self):
         super().__init__("turtle_follower")
         self.goal = self.declare_parameter("goal", "turtle1").value
-        # The listener puts every transform into the buffer, which keeps ten seconds.
+        # The listener puts every transform into the buffer, which keeps ten seconds of them.
         self.buffer = Buffer()
         self.listener = TransformListener(self.buffer, self)
 
@@ -30,7 +30,7 @@ class TurtleFollower(Node):
             return
 
         try:
-            # Target first, source second. Time() means the latest moment known for both frames.
+            # Target first, source second. Time() means the latest time at which both frames are known.
             found = self.buffer.lookup_transform("turtle2", self.goal, Time())
         except TransformException as refused:
             self.get_logger().info(f"waiting: {refused}")

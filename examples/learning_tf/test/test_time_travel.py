@@ -28,7 +28,7 @@ def test_it_goes_where_the_other_was():
         broadcaster.sendTransform(t)
 
     def move():
-        # turtle1 runs ahead at 1 m/s; turtle2 stays where it is.
+        # turtle1 drives ahead at 1 m/s; turtle2 does not move.
         place("turtle1", (simulator.get_clock().now() - begun).nanoseconds / 1e9)
         place("turtle2", 0.0)
 
@@ -43,6 +43,6 @@ def test_it_goes_where_the_other_was():
             break
     ran = (simulator.get_clock().now() - begun).nanoseconds / 1e9
 
-    # Half of where turtle1 was 3.1 s ago, not half of where it is.
+    # Half of the position 3.1 s ago, not half of the present position.
     assert heard[0].linear.x == pytest.approx(0.5 * (ran - 3.1), abs=0.05)
     rclpy.shutdown()
