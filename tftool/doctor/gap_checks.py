@@ -513,8 +513,11 @@ def _is_going_on(stream: Track | Heard, begin: int, end: int) -> bool:
 def _is_silent(stream: Track | Heard, begin: int, end: int) -> bool:
     """Whether a stream has no samples in the middle of another stream's gap.
 
-    For a stream of low rate, the result is False. The stamps `begin` and `end` bound the gap.
+    For a stream of low rate, or of messages about nodes, the result is False. The stamps `begin`
+    and `end` bound the gap.
     """
+    if isinstance(stream, Heard) and stream.type.startswith(_REPORTS):
+        return False
     margin = (end - begin) // 5
     low, high = np.searchsorted(np.sort(stream.stamps), (begin + margin, end - margin))
     usual = len(stream.stamps) * (end - begin - 2 * margin) / max(1, int(np.ptp(stream.stamps)))
