@@ -213,6 +213,20 @@ def test_a_localiser_that_takes_back_the_odometry_is_told():
     assert "although it goes 2.00 m in odom" in found(made, "odometry-cancelled").message
 
 
+@pytest.mark.parametrize(("share", "told"), [(0.5, True), (0.1, False)])
+def test_a_localiser_that_turns_odometry_in_one_direction_is_a_note(share, told):
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", 10.0, lambda t: (0.2 * t, 0.0, 0.0, *turned(0.3 * t)))
+    # One correction per half second.
+    made.moving("map", "odom", 10.0, lambda t: (0, 0, 0, *turned(-share * 0.15 * int(2 * t))))
+    notes = [one for one in made.judged().findings if one.id == "odometry-corrected"]
+    assert [one.severity for one in notes] == [Severity.NOTE] * told
+    if told:
+        # From 2 s to 7.9 s: 11 corrections of 4.3°; in 7.9 s the robot turns by 2.37 rad.
+        assert "odom in map turns by 47.3° in one direction" in notes[0].message
+        assert "turns by 136° in odom" in notes[0].message
+
+
 def test_commands_after_the_last_transform_are_read_unless_all_are_zero(tmp_path):
     path = tmp_path / "run.bag"
     twist, tf = "geometry_msgs/msg/Twist", "tf2_msgs/msg/TFMessage"

@@ -8,7 +8,7 @@ from tftool.base.stamps import NANOSECONDS, Stamp, seconds
 from tftool.doctor.check import checks_of, hit_of
 from tftool.doctor.findings import Area, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
-from tftool.doctor.stamp_stream import BASES, ROUNDED, Track, are_same, last_part
+from tftool.doctor.stamp_stream import BASES, ROUNDED, Places, Track, are_same, last_part
 from tftool.doctor.wording import metres
 from tftool.geometry.rigid_arrays import Floats, angles_between, rotate, unit
 from tftool.recordings.contract import median, percentile
@@ -390,6 +390,57 @@ def odometry_cancelled(model: Model, limits: Limits) -> Iterator[Hit]:
             if drives > limits["metres"] and stays < limits["share"] * drives:
                 facts = {"child": below.child, "map": track.parent, "odom": below.parent}
                 yield hit_of(track, {**facts, "stays": stays, "drives": drives}, alone=True)
+
+
+@check(
+    "odometry-corrected",
+    Severity.NOTE,
+    rule="later than {warm:g} s after its first sample, a localiser turns odometry in the map by "
+    "{degrees:g}° or more in one direction (80 % of all its turns), in {samples:g} corrections or "
+    "more. This is a share of {share:g} or more of all turns of the robot in the odometry",
+    headline="{edge} turns by {net:deg} in one direction, while {child} turns by {all:deg} in "
+    "{odom}",
+    detail="{edge}: {count} corrections, in {length:span}; the turns of {child} are added up "
+    "without sign",
+    consequence="the rotation in the odometry, or the pose in the map, is wrong",
+    fixes=(Fix("turn the robot by a known angle, and compare the odometry with it"),),
+    limits={"warm": 2.0, "degrees": 30.0, "samples": 10, "share": 0.3},
+    because_of=(("edge", "publisher-conflict clock-offset odometry-cancelled teleport"),),
+)
+def odometry_corrected(model: Model, limits: Limits) -> Iterator[Hit]:
+    """A localiser turns the odometry in one direction."""
+    for track in model.dynamic:
+        for below in model.dynamic if track.is_localisation and track.moves else ():
+            if below.parent != track.child or last_part(below.child) not in BASES:
+                continue
+            if len(below.publishers) > 1 or not len(track.by_stamp):
+                continue
+            begin = track.sorted_stamps[0] + int(limits["warm"] * NANOSECONDS)
+            rows = track.by_stamp[track.sorted_stamps >= begin]
+            steps = _yaw_steps(track, rows)
+            number = int(np.count_nonzero(np.abs(steps) > _CORRECTS))
+            net = abs(float(steps.sum()))
+            every = float(np.abs(_yaw_steps(below, below.by_stamp)).sum())
+            is_far = net >= np.radians(limits["degrees"]) and net >= limits["share"] * every
+            # With steps in both directions, a pose that is uncertain comes and goes.
+            if number >= limits["samples"] and is_far and net > 0.8 * np.abs(steps).sum():
+                facts = {"net": net, "all": every, "child": below.child, "odom": below.parent}
+                length = int(np.ptp(track.stamps[rows]))
+                yield hit_of(
+                    track, {**facts, "count": number, "length": length}, count=number, alone=True
+                )
+
+
+_CORRECTS = 1e-3
+"""Minimum turn of a correction, radians."""
+
+
+def _yaw_steps(track: Track, rows: Places) -> Floats:
+    """Return the turns about z between consecutive samples, radians, shape (n - 1,)."""
+    x, y, z, w = unit(track.rotations[rows]).T
+    yaw = np.arctan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+    steps: Floats = (np.diff(yaw) + np.pi) % (2.0 * np.pi) - np.pi
+    return steps
 
 
 def _reach(positions: Floats, percent: float) -> float:
