@@ -1,8 +1,8 @@
 """All checks of the project as one command: `python -m tests`.
 
-Formatter, linter, layers, types, plain English, then the tests. Words after the command go to
-pytest: `python -m tests -k history` runs less. `python -m tests --coverage` judges
-the branch coverage of the whole as well, which takes twice as long.
+The order is formatter, linter, layers, plain English, tests; types run beside the tests. Arguments
+are passed to pytest: `python -m tests -k history` runs fewer tests. `python -m tests --coverage`
+also checks the branch coverage, which takes twice as long.
 """
 
 import os
@@ -22,20 +22,20 @@ CHECKS = [
     [*PYTHON, "tests.prose"],
 ]
 TYPES = [*PYTHON, "mypy"]
-# One process compiles all modules and finds tests that cannot be imported. Without it, each of the
-# workers compiles what no other has stored yet: 135 seconds of processor time in place of 98.
+# One process compiles all modules and finds tests that cannot be imported. Without it, several
+# workers compile the same modules: 135 seconds of processor time instead of 98.
 COLLECT = [*PYTHON, "pytest", "--collect-only", "-qq"]
 
 
 def main(words: list[str]) -> int:
-    """Run every check, the tests last; stop at the first that fails, but report the types too."""
+    """Run every check, the tests last; stop at the first failure, but always report the types."""
     # Several workers share the processors. numpy's BLAS would start a thread for each processor in
     # each process, and these threads wait busily at first.
     environment = {"OPENBLAS_NUM_THREADS": "1", **os.environ}
     root = Path(__file__).resolve().parent.parent
-    # A selection of tests covers only a part of the code, so coverage is judged for all tests.
+    # A selection of tests covers only a part of the code, so coverage is measured for all tests.
     tests = [*PYTHON, "pytest", *(COVERAGE if words == ["--coverage"] else words or WHOLE)]
-    # The types need a minute of one processor, and the tests leave some of two free.
+    # mypy needs one processor for a minute, and the tests do not use two processors fully.
     with subprocess.Popen(TYPES, cwd=root, stdout=subprocess.PIPE, text=True) as types:
         status = 0
         for command in [*CHECKS, *([] if words else [COLLECT]), tests]:

@@ -1,4 +1,4 @@
-"""Certificate authority for tests, and one certificate of it for this machine."""
+"""Certificate authority for tests, and a certificate that it signs for this machine."""
 
 import shutil
 import subprocess

@@ -18,7 +18,7 @@ from tftool.commands.shared.connection import Connection
 TIMELESS = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow]}
 settings.register_profile("desk", **TIMELESS)
 settings.register_profile("ci", **TIMELESS, derandomize=True, max_examples=40)
-# For a change of what the examples are about: pytest --hypothesis-profile=deep tests/buffer
+# This profile is for changes of the tested code: pytest --hypothesis-profile=deep tests/buffer
 settings.register_profile("deep", **TIMELESS, max_examples=1000)
 settings.load_profile("ci" if os.environ.get("CI") else "desk")
 

@@ -13,7 +13,7 @@ def full_disk(size):
 
     ignored = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
     limits = resource.getrlimit(resource.RLIMIT_FSIZE)
-    # Python 3.11 would store the bytecode of a module that is imported now cut off, and fail later.
+    # Python 3.11 would store incomplete bytecode of a module that is imported now, and fail later.
     caching, sys.dont_write_bytecode = sys.dont_write_bytecode, True
     resource.setrlimit(resource.RLIMIT_FSIZE, (size, limits[1]))
     try:

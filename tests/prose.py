@@ -1,8 +1,8 @@
 """Plain English in docstrings, comments and messages: what `python -m tests` refuses.
 
-A docstring opens with a verb or a noun, not with a question word; turns of phrase that have to
-be read twice are listed below. A line that is right as it is ends in the comment `prose: ok`.
-Messages and the doctor's texts, which a table of their own checks, may say "what is".
+A docstring opens with a verb or a noun, not with a question word; refused phrases are listed
+below. The comment `prose: ok` at the end of a line permits the line. Messages and the texts of the
+doctor may say "what is"; the doctor's texts are checked by a separate table.
 """
 
 import ast

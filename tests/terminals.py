@@ -120,7 +120,7 @@ class Terminal:
         os.kill(int(self.pid_file.read_text()), number)
 
     def stops(self):
-        """Wait until the command is suspended; it restores the screen before, and is quiet."""
+        """Wait until the command is suspended; it has restored the screen, and prints nothing."""
         state = Path("/proc", self.pid_file.read_text().strip(), "stat")
         # The state follows the name, which is in parentheses and may contain any characters.
         self._seen(

@@ -17,7 +17,7 @@ from tftool.buffer.native_kernel import IS_NATIVE
 
 SHARED = {"tftool.buffer.sample", "tftool.buffer._kernel"}
 
-# The names are listed once, as a process has thousands of modules and a test changes over often.
+# The names are listed once: a process has thousands of modules, and tests often change the copy.
 TWINS = {
     "tftool.buffer",
     *(one.name for one in pkgutil.walk_packages(tftool.buffer.__path__, "tftool.buffer.")),
@@ -110,7 +110,7 @@ def worst(count: int, links: int = 5) -> tuple[int, float, float]:
         stamps = 10**9 + np.arange(samples) * 10**7 + random.integers(0, 10**6, samples)
         places = np.cumsum(random.normal(0.0, 0.1, (samples, 3)), axis=0)
         way += float(np.linalg.norm(places, axis=1).max())
-        # Neighbouring rotations differ from hardly at all to completely.
+        # The first edge turns much between two samples, the last edge hardly at all.
         turns = np.cumsum(random.normal(0.0, 10.0 ** -(link + 1), (samples, 4)), axis=0)
         turns[:, 3] += 1.0 if link else 0.0
         twins.ask("set_transforms", f"f{link}", f"f{link + 1}", stamps, places, turns)

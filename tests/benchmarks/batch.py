@@ -192,7 +192,7 @@ def growth() -> list[str]:
 def reads_alone() -> list[str]:
     """Compare random lookups with copying only the samples that these lookups need.
 
-    A lookup needs two adjacent samples of 64 bytes in each of five edges. All samples have 32
+    A lookup needs two adjacent samples of 64 bytes in each of five edges. All samples need 32
     megabytes, more than the caches of a processor. numpy copies the samples row by row.
     """
     world = chain(5, FEW)

@@ -23,7 +23,7 @@ def cost(columns: int, rows: int, duration: float) -> float:
     if pid == 0:
         os.environ["TERM"] = "xterm-256color"
         os.environ["COLORTERM"] = "truecolor"
-        # The session must be empty: turtle1 drives by itself only if nobody else is in the session.
+        # The session must be empty: turtle1 drives by itself only without other processes.
         os.environ["TFTOOL_SESSION_DIR"] = folder
         os.execv(sys.executable, [sys.executable, "-m", "tftool", "demo", "--for", str(duration)])
     fcntl.ioctl(terminal, termios.TIOCSWINSZ, struct.pack("HHHH", rows, columns, 0, 0))

@@ -151,7 +151,7 @@ def inserts(
 
 
 def _late(random: Random) -> list[int]:
-    """Return the order in which every second sample comes up to four samples too late."""
+    """Return an order in which every second sample arrives up to four samples too late."""
     due = [number + (random.randrange(400) if number % 2 else 0) for number in range(MOST)]
     return sorted(range(MOST), key=due.__getitem__)
 

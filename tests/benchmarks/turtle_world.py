@@ -30,7 +30,7 @@ def rounds(*, square: bool, color: bool = False, count: int = 7) -> list[float]:
     """Run turtlesim, two broadcasters and the follower; return the ratio of each round.
 
     Args:
-        square: Whether the leader draws squares; otherwise it stands.
+        square: Whether the leader draws squares; otherwise it does not move.
         color: Whether a node subscribes to the colour sensors.
         count: Number of rounds.
     """

@@ -90,7 +90,7 @@ def test_a_class_cannot_hide_its_leading_slash():
 
 
 def test_two_threads_that_look_up_and_drop_paths_by_such_names_do_no_harm():
-    # In a separate process, because memory that is freed too early would end the process.
+    # This runs in a separate process, because memory that is freed too early would end the process.
     code = """
 import threading
 from tests.buffer.test_hostile_names import filled

@@ -231,7 +231,7 @@ def test_late_samples_are_put_where_they_belong_while_a_batch_reads(monkeypatch)
     random = Random(4)
     held = []
     for number in range(500):
-        # In order, somewhat late, before all others, far too late, and again an existing stamp.
+        # Samples are in order, late, before all others, too old, or have an existing stamp.
         late = random.choice([0, 0, 0, random.randrange(40), 90, 130])
         stamp = (100 + number // 2 - late) * 10**7 + random.choice([0, 0, number])
         pose = Transform((float(number), 0.0, 0.0))
@@ -265,7 +265,7 @@ def test_answers_are_of_the_types_they_always_were():
     assert hash(found) == hash(TransformStamped(5, "a", "b", Transform((1.0, 2.0, 3.0))))
 
 
-# Arguments that tftool's own code never passes, and the kernel must survive
+# Arguments that tftool's own code never passes, and that must not crash the kernel
 
 LENGTHS = st.sampled_from([0, 1, 7, 8, 9, 63, 64, 65, 128, 256, 1000])
 NUMBERS = st.one_of(
@@ -358,7 +358,7 @@ def test_what_the_collector_runs_in_the_middle_of_an_insert_is_survived():
         links = [link]
         senders = {"b": ("a", "", 5, link)}
         if change is dict.clear:
-            # Nothing else holds the object then.
+            # Then the dictionary has the only reference to the history.
             links.clear()
         del link
         door, late = Bare(senders=senders), TransformStamped(150, "a", "b", Transform())

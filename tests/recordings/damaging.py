@@ -2,8 +2,8 @@
 
 `python -m tests.recordings.damaging FILE… [--cuts 1000] [--flips 1000] [--seed 0]`
 
-Each copy must be refused with a sentence, or read, in limited time and memory, and never with
-another exception. Copies that fail are stored, with the words that reproduce the failure.
+Each copy must be read, or refused with a sentence, in limited time and memory, without any other
+exception. Copies that fail are stored, with the arguments that reproduce the failure.
 """
 
 import argparse

@@ -598,7 +598,7 @@ def test_a_message_may_say_that_it_was_sent_at_any_time(tmp_path):
 
 
 def test_a_schema_that_is_defined_twice_is_the_same_one_after_an_edit(tmp_path):
-    # The last definition before a channel that uses it is valid, and no later one.
+    # A channel uses the last definition before it; later definitions are ignored.
     path = tmp_path / "twice.mcap"
     path.write_bytes(
         b"".join(

@@ -331,8 +331,8 @@ def test_who_is_killed_is_missed_at_once():
             guest.attach(world, role=Role.GUEST)
             await until(lambda: world.buffer.frame_exists("turtle1"))
             first.started.kill()
-            # zenoh itself detects a silent peer after ten seconds; this test is about the other
-            # message.
+            # zenoh itself reports a silent peer only after ten seconds; this test waits for the
+            # earlier message.
             told = "which hosted, has left"
             await until(lambda: any(told in one.text for one in world.log.records))
 
@@ -371,7 +371,7 @@ def test_whoever_is_killed_the_others_go_on_and_a_newcomer_finds_them(session_di
             assert all(live[name].started.poll() is None for name in ROLES if name != role)
             live[role] = stack.enter_context(ROLES[role]())
             live[role].says(READY[role])
-            # The host's messages reach the guest, whichever of the two is new.
+            # The host's messages reach the guest, whether the host or the guest is new.
             fresh_answer(live["guest"], len(live["guest"].lines))
             clocks.run(WallClock(), statics_reach_a_newcomer())
         for process in live.values():

@@ -48,7 +48,7 @@ def test_over_tcp_a_guest_reaches_every_process_of_the_other_machine(session_dir
             inner.attach(inside, role=Role.HOST)
             with Link(Options("demo", reach=ZenohReach(listen=(f"tcp/127.0.0.1:{port}",)))) as gate:
                 gate.attach(new_world(), role=Role.HOST)
-                # Another session folder stands for another machine.
+                # Another session folder represents another machine.
                 monkeypatch.setenv("TFTOOL_SESSION_DIR", str(session_dir / "far"))
                 with Link(
                     Options("echo", reach=ZenohReach(connect=(f"tcp/127.0.0.1:{port}",)))

@@ -53,8 +53,8 @@ def test_three_terminals_play_the_tutorial(terminal):
         lambda screen: teleop.press(next(keys)) or (distance(screen) or 0) > 0.5,
         "turtle1 driven away",
     )
-    # A letter turns the turtle with the action. The demo's log, which L opens, shows this; the
-    # log's last line alone may be another one by then.
+    # A letter turns the turtle with the action. The demo's log shows the end of this turn. L opens
+    # the whole log, because other lines may follow.
     demo.press("L")
     teleop.press("r")
     demo.until(lambda screen: "Rotation goal completed" in screen, "a turn")

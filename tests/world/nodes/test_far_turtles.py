@@ -128,7 +128,7 @@ def test_another_simulator_begins_on_an_empty_sheet(world):
 
     lived(world, 6)
 
-    # The line does not change until the next one comes.
+    # The line does not change until the next line arrives.
     assert [(one.x0, one.x1) for one in before] == [(1.0, 2.0)]
     assert [(one.x0, one.x1) for one in far.trail.segments] == [(5.0, 6.0)]
 

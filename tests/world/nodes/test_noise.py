@@ -26,8 +26,8 @@ def places(world_time=10.0, **words):
 def test_the_errors_have_the_spread_that_is_said():
     found, turns = places(400.0, offset=(1.0, 2.0, 3.0), position=0.1, angle=0.02)
 
-    # Of 4,000 draws, the standard error of the mean is 0.1 / 63, and of the deviation 1.1 %; five
-    # of each are allowed.
+    # With 4,000 draws, the standard error of the mean is 0.1 / 63, and of the deviation 1.1 %. Five
+    # standard errors are allowed.
     assert found.shape == (4001, 3)
     assert found.mean(axis=0) == pytest.approx((1.0, 2.0, 3.0), abs=0.008)
     assert found.std(axis=0) == pytest.approx((0.1,) * 3, rel=0.06)
@@ -40,8 +40,8 @@ def test_drift_grows_with_the_root_of_the_time():
         for seed in range(200)
     ]
 
-    # The deviation is the square root of two seconds; 200 walks determine it within 5 %, of which
-    # five times are allowed.
+    # After four seconds, the deviation is twice the drift. With 200 walks, its standard error is
+    # 5 %; four standard errors are allowed.
     last = np.array([found[-1] for found, _ in ends])
     assert last[:, :2].std(axis=0) == pytest.approx((0.3 * math.sqrt(4.0),) * 2, rel=0.2)
     assert not last[:, 2].any()

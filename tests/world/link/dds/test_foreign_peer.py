@@ -29,7 +29,7 @@ def test_a_foreign_publisher_is_heard_whole_and_its_statics_late(peer, domain, k
             return world.buffer.samples("base"), world.buffer.samples("laser")
 
     moving, still = asyncio.run(scene())
-    # The buffer stores the last ten seconds, and 300 samples at 100 Hz are three.
+    # The buffer stores the last ten seconds, and 300 samples at 100 Hz need only three.
     assert moving.stamps.tolist() == [stamp(number) for number in range(300)]
     assert moving.poses[:, 0].tolist() == [number * 0.5 for number in range(300)]
     assert set(moving.parents) == {"odom"}

@@ -105,7 +105,7 @@ def test_a_missing_package_is_said_with_every_way_out(monkeypatch, capsys):
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "cyclonedds", None)
 
-    # The error is that of any missing extra.
+    # The error is the same as for any missing extra.
     assert main(["tree", "--dds"]) == 2
     said = " ".join(capsys.readouterr().err.split())
     assert "pip install 'tftool-tf2[dds]'" in said

@@ -104,7 +104,7 @@ def test_protobuf_of_foxglove_is_heard_from_any_topic(robots):
 def test_messages_of_ros_1_become_those_of_ros_2(robots):
     kind = INTERFACES.message("tf2_msgs/TFMessage")
     message = codec(kind).decode(encode_transforms([transform("odom", "base", seconds(3), 0.5)]))
-    # ROS 1 counts headers: a number of four bytes precedes the stamp.
+    # A header in ROS 1 has a counter of four bytes before the stamp.
     payload = Codec(kind, ROS1).encode(message)
     text = Codec(STRING, ROS1).encode(build(STRING, data="<robot/>"))
 

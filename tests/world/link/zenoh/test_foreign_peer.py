@@ -119,7 +119,7 @@ class Foreign:
         ]
 
     def until(self, condition):
-        """Check after each of its lines whether `condition()` is true, until it ends."""
+        """Check `condition()` after each line of the peer, until it is true or the peer ends."""
         with self._heard:
             self._heard.wait_for(lambda: condition() or self._silent, PATIENCE)
         assert not self._silent or self.check()
@@ -157,8 +157,8 @@ def test_a_foreign_ros_2_peer_hears_us_and_is_heard(tmp_path):
             world.broadcast([static], "static_publisher", static=True)
             foreign = Foreign(port, tmp_path)
             try:
-                # Transforms: the peer's arrive in tftool's buffer, under the name of the peer's
-                # node ...
+                # The peer's transforms arrive in tftool's buffer, under the name of the peer's
+                # node.
                 await until(lambda: foreign.check() and world.buffer.frame_exists("foreign"))
                 found = world.buffer.lookup_transform("world", "foreign")
                 assert found.transform.translation == (1.5, -2.5, 3.5)
@@ -166,7 +166,7 @@ def test_a_foreign_ros_2_peer_hears_us_and_is_heard(tmp_path):
                 info = world.buffer.snapshot(world.clock.now()).frame("foreign")
                 assert info.authority == "foreign_broadcaster"
 
-                # ... and tftool's arrive at the peer, also static ones sent earlier.
+                # tftool's transforms arrive at the peer, also static ones sent earlier.
                 def ours():
                     stamp = world.clock.now()
                     mine = TransformStamped(stamp, "world", "ours", Transform((0.25, 0.0, 0.0)))
@@ -183,7 +183,7 @@ def test_a_foreign_ros_2_peer_hears_us_and_is_heard(tmp_path):
                 await until(lambda: simulator.turtles["turtle1"].pose.linear_velocity == 1.0)
                 assert simulator.turtles["turtle1"].pose.angular_velocity == 0.5
 
-                # The graph as the peer sees it, and a service of tftool that responds to the peer
+                # The peer sees tftool's graph, and a service of tftool responds to the peer.
                 await until(lambda: foreign.check() and foreign.with_key("topics"))
                 (graph,) = foreign.with_key("topics")
                 assert graph["topics"]["/turtle1/pose"] == ["turtlesim/msg/Pose"]
@@ -195,7 +195,7 @@ def test_a_foreign_ros_2_peer_hears_us_and_is_heard(tmp_path):
                     "foreign_broadcaster"
                 }
 
-                # A message of a user's type in both directions ...
+                # Messages of a user's type arrive in both directions.
                 heard = []
                 world.topic("words", STRING).subscribe(heard.append)
 
@@ -208,7 +208,7 @@ def test_a_foreign_ros_2_peer_hears_us_and_is_heard(tmp_path):
                 assert foreign.with_key("chatter")[0] == {"chatter": "Hello ☺"}
                 assert foreign.with_key("topics")[0]["topics"]["/tf"] == ["tf2_msgs/msg/TFMessage"]
 
-                # ... and the simulator's parameters, set, refused and read
+                # The peer sets and reads the simulator's parameters; an invalid value is refused.
                 await until(lambda: foreign.check() and foreign.with_key("parameters"))
                 accepted, refused = foreign.with_key("set")
                 assert accepted == {"set": 255, "successful": True, "reason": ""}

@@ -27,7 +27,7 @@ def test_whatever_goes_wrong_on_the_way_in_nothing_is_left_there(session_dir, mo
             ZenohMiddleware(Options(), ZenohReach())
 
     assert [path.name for path in (session_dir / "0").iterdir()] == ["lock"]
-    # The lock is free again, so nobody waits for it.
+    # The lock is free again, so no process waits for it.
     ZenohMiddleware(Options(), ZenohReach()).close()
 
 
@@ -119,5 +119,5 @@ def test_a_wait_is_over_at_its_time_however_long_each_look_takes(monkeypatch):
         there = f"tcp/127.0.0.1:{mute.getsockname()[1]}"
         with pytest.raises(LinkError, match="no process answers at"):
             ZenohMiddleware(Options(), ZenohReach(connect=(there,)))
-    # One check for the neighbours, of whom there are none; the others at 0, 0.4, 0.8 and 1.2 s
+    # One check finds no neighbours; the others are at 0, 0.4, 0.8 and 1.2 s.
     assert len(seen) == 1 + 4
