@@ -1,7 +1,7 @@
 """Synthetic recordings with known faults: healthy ones, one or two faults, reported cases.
 
-Each recording is a function of a robot that drives and navigates, or of an empty one. Its row
-lists the findings that must occur, their names, and the permitted consequences. Each recording
+Each recording is made by a function that changes a robot: one that navigates, or an empty one. Its
+row lists the findings that must occur, their names, and the permitted consequences. Each recording
 has its own random jitter.
 """
 

@@ -487,12 +487,12 @@ def test_a_base_below_map_beside_odom_is_out_of_line():
     made.moving("map", "base_link")
     made.moving("map", "odom", pose=stands)
     assert found(made, "rep105-shape").edges == (("map", "base_link"),)
-    # The odom beside the robot is only there for its name.
+    # odom has no children, so only its name has a purpose.
     assert (
         "odom in map never moves, and nothing hangs from odom"
         in (found(made, "rep105-shape").evidence[0])
     )
-    # Some stacks are so on purpose.
+    # Some stacks publish such a tree on purpose.
     assert found(made, "rep105-shape").severity is Severity.NOTE
 
     above = Robot()

@@ -284,8 +284,8 @@ def test_two_sensors_of_one_clock_are_one_finding():
     (finding,) = (one for one in made.judged().findings if one.id == "clock-offset")
     assert finding.topics == ("/imu", "/magnet")
     assert finding.message == "/imu, /magnet are 400 ms off the other clocks"
-    # A robot's clock is off by more than a minute; its streams have delays of their own, and the
-    # network holds the last messages back.
+    # A robot's clock is off by more than a minute. Its streams have different delays, and the
+    # network delays the last messages.
     made = Robot(log_from=START)
     made.static("base_link", "laser")
     for begin, end, late in ((0.0, 6.5, 0.0), (6.5, 8.0, 2.0)):
@@ -409,12 +409,12 @@ def test_seconds_of_a_slow_network_are_no_part_of_a_clock_that_was_never_set():
     found_shift = found(made, "shifted-clock")
     assert found_shift.message.startswith("all stamps are 184 days before their reception")
     assert "3 of 3 streams" in found_shift.evidence[0]
-    # The two parts of one robot do not fit together.
+    # Parts of the same robot have different delays, so the late part is a finding.
     assert ids(made) == ["stale-stamp"]
     late = found(made, "stale-stamp")
     assert {child for _, child in late.edges} == {"arm", "hand"}
     assert late.fixes[0].text.startswith("base_link in odom of the same tree arrived in time")
-    # A detector takes its time.
+    # A detector needs time for its results, so its delay is no finding.
     made = Robot(log_from=START + 184 * 86_400)
     made.moving("odom", "base_link")
     made.moving("base_link", "marker_7", end=LASTS - 2.8, latency=2.8)
@@ -487,7 +487,7 @@ def test_a_localiser_beside_a_recorded_one_is_told_as_two_sources():
     made.records["map", "odom", False] = [*live, *rows[::2]]
     finding = found(made, "clock-offset")
     assert "odom in map has two sources, 80 of its samples" in finding.evidence[0]
-    # To drop the transform would take the samples of both sources out.
+    # A command that drops the transform would remove the samples of both sources.
     assert not any(fix.command for fix in finding.fixes)
     assert finding.severity is Severity.ERROR
     assert ids(made) == ["clock-offset"]
@@ -548,7 +548,7 @@ def test_a_recording_that_is_played_in_a_loop_repeats_bit_for_bit(shift):
                 made.sent(parent, child, 8.0 * lap + at, pose, stamp=made.log(at))
                 assert made.messages[-1][0] >= log
     back = found(made, "time-jump-back")
-    # A simulation that is reset does not make the same numbers again.
+    # A simulation that is reset does not repeat the same numbers.
     assert ("played in a loop" in back.message) is (shift == 0.0)
     assert ("without --loop" in back.fixes[0].text) is (shift == 0.0)
 
@@ -580,7 +580,7 @@ def test_publishers_on_two_clocks_are_compared_when_their_data_arrives():
     made.moving("odom", "base_link", pose=stands, offset=-20_000.0, node="/camera")
     conflict = found(made, "publisher-conflict")
     assert conflict.publishers == ("/filter", "/camera")
-    # One after the other, as a node that was started again, is no conflict.
+    # Two publishers one after the other are no conflict: a node may have been started again.
     after = robot(odometry=False, laser=False, scans=False)
     after.moving("odom", "base_link", node="/filter", end=4.0)
     after.moving("odom", "base_link", pose=stands, begin=4.1, node="/camera")

@@ -114,7 +114,7 @@ def test_a_recording_without_statics_of_a_robot_at_rest_lacks_their_topic():
         "if nothing sends them, publish the mount for each of the frames:"
     )
     assert finding.fixes[1].command.endswith("--frame-id PARENT --child-frame-id back_laser_link")
-    # Whether the robot has statics is unknown, as nobody recorded their topic.
+    # The topic of static transforms was not recorded, so the robot may have some.
     assert finding.severity is Severity.WARNING
 
 
@@ -384,7 +384,7 @@ def test_each_outage_is_told_whatever_the_offset_of_the_clock(ahead):
     )
     assert finding.count == 2
     assert "on 2 of them data of that time never came (up to 6.10 s)" in finding.evidence[0]
-    # Less than half of the outage is lost, but not all came.
+    # Some data of the outage is lost, but less than half.
     held = robot(scans=False)
     held.hears("/scan", "laser", end=3.0)
     held.hears("/scan", "laser", begin=4.0)
@@ -444,7 +444,7 @@ def test_a_tag_that_is_seen_no_more_has_not_stopped_and_a_mount_has():
         irregular.sent("laser", "thing", at)
     assert "edge-stopped" not in ids(irregular)
 
-    # A part that no message is in is only drawn.
+    # A part without messages is used only for drawing.
     made.moving("base_link", "arm", hz=10, end=3.0)
     assert found(made, "edge-stopped").severity is Severity.NOTE
     made.hears("/range", "arm", kind="sensor_msgs/Range")
@@ -518,7 +518,7 @@ def test_a_gap_names_the_topics_that_were_silent_with_it(end, severity):
     gap = found(made, "gap")
     assert gap.severity is severity
     assert gap.evidence[0].endswith("at the same time: /wheels")
-    # Without data to place, the robot's own place is still lost in the gap.
+    # Without sensor data, the robot's own pose is still missing in the gap.
     made.heard.pop("/scan")
     assert found(made, "gap").severity is severity
 
@@ -581,7 +581,7 @@ def test_a_player_that_pauses_is_no_outage():
 
 @pytest.mark.parametrize(("shown", "told"), [(True, ["outage"]), (False, ["gap"])])
 def test_a_recorder_that_stalls_again_and_again_is_an_outage(shown, told):
-    """Check silences of 0.4 s after which `/clock` comes in a burst, or with its usual period."""
+    """Check silences of 0.4 s, after which `/clock` arrives in a burst or at its usual period."""
     made = robot(start=100.0, log_from=START, odometry=False, scans=False)
 
     def held(at: float) -> float:

@@ -177,7 +177,7 @@ def test_odometry_and_transform_of_one_name_that_disagree():
     )  # fmt: skip
     made.odometry = says(lambda t: (0.5 * t, 0.0, 0.0, *turned(math.radians(3.0))))
     assert found(made, "odometry-tf-mismatch").facts["turned"] == pytest.approx(math.radians(3))
-    # Some poses may differ; more than half of them is too many.
+    # Some poses may differ; a finding needs more than half of them.
     made.odometry = says(lambda t: (0.5 * t + (1.0 if t > 4.5 else 0.0), 0.0, 0.0, *NO_TURN))
     assert ids(made) == []
 

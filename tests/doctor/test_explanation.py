@@ -153,8 +153,8 @@ def test_a_text_that_quotes_a_link_off_the_way_is_said_to_mislead():
     found = asked(made, "odom", "laser", 5.0)
 
     assert found.remedies[0].least == seconds(12.98)
-    # This is the oldest sample of odom in map, which is stamped a second ahead; tf2 pruned before
-    # the last sample came.
+    # The time is the oldest sample of odom in map, whose stamps are a second ahead; tf2 pruned
+    # before the last sample arrived.
     assert "earliest data is at time 1750000008.900000" in found.text
     assert "quotes 1750000008.900, a time of odom, but odom is not on the path" in found.why[-1]
 
@@ -445,7 +445,7 @@ def test_a_joint_that_ended_long_ago_needs_its_publisher_and_no_larger_cache():
     made.moving("base_link", "wheel", 10.0, end=5.0)
     found = traced(Model(made.evidence()), Question("odom", "wheel"))
     assert (found.cause, found.check) == (Cause.STOPPED, "edge-stopped")
-    # The wheel's last sample is 4.9, and the last sample of all is 39.9.
+    # The wheel's last sample is at 4.9 s, and the last sample of all frames is at 39.9 s.
     assert "wheel in base_link ended at 1750000004.900, 35.00 s before" in found.why[0]
     assert [remedy.kind for remedy in found.remedies] == ["publisher"]
 

@@ -430,7 +430,7 @@ def test_a_rotation_of_a_wrong_length_names_its_topic_and_its_effect():
     # 2 atan(0.68 / 0.72) is 86.7°.
     assert "ROS 2 normalises it to 86.7° about z" in finding.evidence[0]
     assert "--verbose /tf_static" in finding.fixes[0].text
-    # The rotation that was meant had its numbers typed with two digits.
+    # The numbers of a valid rotation were typed with two digits.
     assert finding.severity is Severity.NOTE
     made.kind = "ROS 1 bag"
     old = found(made, "bad-quaternion")
@@ -646,7 +646,7 @@ def test_played_data_that_is_over_is_a_note():
         finding = next(one for one in judge(ended).findings if one.id == "edge-stopped")
         assert finding.severity is severity
         assert ("a player published it" in finding.fixes[0].text) is (severity is Severity.NOTE)
-    # If /clock goes on, all else should have gone on, too.
+    # If /clock goes on, all other data should go on, too.
     ticks = evidence.start + np.arange(0, 20, dtype=np.int64) * seconds(1.0)
     (finding,) = judge(replace(ended, clock=(ticks, ticks))).findings
     assert (finding.id, finding.severity) == ("edge-stopped", Severity.WARNING)
@@ -658,7 +658,7 @@ def test_replays_of_several_parts_among_live_data_are_no_loop():
     made.moving("odom", "base_link")
     made.moving("base_link", "arm")
     first = [(edge, list(rows)) for edge, rows in made.records.items()]
-    # The first five seconds come again after 12 s, and the first two after 18 s.
+    # The first five seconds are repeated after 12 s, and the first two seconds after 18 s.
     for log, length in ((12.0, 5.0), (18.0, 2.0)):
         for edge, rows in first:
             for stamp, pose, _ in rows[: round(50 * length)]:
@@ -819,7 +819,7 @@ def test_no_rate_is_offered_if_the_network_holds_transforms_back():
     for held, told in ((0.0, True), (0.5, False)):
         made = robot(odometry=False)
         for tick in range(40):
-            # One transform of ten is on the way for longer, of those that come at 5 Hz.
+            # The transform is sent at 5 Hz, and one message of ten is delayed.
             late = held if tick % 10 == 9 else 0.0
             at = 0.2 * tick
             made.sent("odom", "base_link", at, drives(at), latency=0.03 + late)
@@ -836,7 +836,7 @@ def test_a_rate_or_a_static_is_offered_only_if_no_other_transform_is_as_late():
         fixes = [fix.text for fix in found(made, "sensor-outruns-tf").fixes]
         assert any("/tf_static" in fix for fix in fixes) is not is_odometry_late
         if is_odometry_late:
-            # Both come at 5 Hz, so a higher rate of one of them changes nothing.
+            # Both transforms are sent at 5 Hz, so a higher rate of one of them changes nothing.
             assert len(fixes) == 1
 
 

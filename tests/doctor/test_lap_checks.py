@@ -46,7 +46,7 @@ def test_a_clock_that_goes_back_makes_listeners_clear_their_buffers():
 
 def test_the_cut_says_what_the_later_parts_hold():
     made = Robot()
-    # The first 5 s come again twice, and go on.
+    # The first 5 s are sent again twice, and both times the data goes on.
     for begin, ticks in ((0, 10), (10, 40), (40, 20)):
         for tick in range(ticks):
             at, pose = 0.5 * tick, drives(0.5 * tick)

@@ -18,7 +18,7 @@ def test_a_short_gap_of_motion_capture_across_a_large_turn_is_told(speed, told):
     )
     assert ids(made) == told
     if told:
-        # From 2.983 s to 3.3 s.
+        # The gap is from 2.983 s to 3.3 s.
         assert "across it: 81.6° and 0.16 m" in found(made, "gap").evidence[0]
 
 
@@ -33,7 +33,7 @@ def test_a_gap_in_the_first_second_is_told_after_ten_samples(begin, told):
     # A log that pauses is no evidence of a gap.
     made.hears("/rosout", "", 20.0, "rosgraph_msgs/Log", end=8.0)
     made.hears("/rosout", "", 20.0, "rosgraph_msgs/Log", begin=8.3, end=12.0)
-    # Without samples from 8 s to 8.3 s.
+    # The second gap is from 8 s to 8.3 s.
     made.moving("world", "drone", 60.0, turns, begin=8.3, end=12.0)
     assert found(made, "gap").evidence[0].endswith("; one of 2 gaps above 250 ms, 633 ms in all")
 
