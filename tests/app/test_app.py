@@ -88,7 +88,7 @@ def test_the_nearest_option_is_named_first(tftool):
 
 def test_one_option_is_spelt_alike_in_all_commands():
 
-    # `--rate` is a frequency where something is printed or drawn, and a speed where time runs.
+    # `--rate` is a speed of time in `demo` and `play`, and a frequency in all other commands.
     other = {("demo", "--rate"), ("play", "--rate")}
     # `--set` is a parameter of a node in one command, and the pose of a link in another;
     # `--restamp` is an option of recordings.
@@ -230,7 +230,7 @@ def test_help_of_every_command_opens_with_its_words_and_keeps_its_examples(tftoo
     assert result.out.startswith(f"Usage: tftool {command}")
     assert f"\n  tftool {command}" in result.out
     assert "\b" not in result.out
-    # Times are nanoseconds inside and ranges have types, but users type neither.
+    # The help shows neither times in nanoseconds nor the types of ranges.
     assert not re.search(r"default: \d{8}|<int range>", result.out)
     examples = [row for row in result.out.split("\n\n") if row.startswith(f"  tftool {command}")]
     assert len(examples) == 1

@@ -293,8 +293,8 @@ def test_tab_completes_in_a_real_shell(tmp_path, recorded, shell, options):
         terminal.shows("tftool check")
         terminal.press("tur", "Tab")
         terminal.shows("tftool check turtles")
-        # A frame of the recording that is named later in the line. fish does not pass later words
-        # to completions.
+        # The completed frame is in the recording that the line names after the cursor. fish does
+        # not pass words after the cursor to completions.
         if shell != "fish":
             terminal.press(" && tftool echo b run.mcap", *["Left"] * len(" run.mcap"), "Tab")
             terminal.shows("tftool echo base_link")

@@ -213,7 +213,7 @@ def test_a_script_stops_a_learners_program_with_its_node(tftool, tmp_path):
     )
     result = tftool("check", tmp_path / "stopped.yaml", "--run", f"follower={LISTENER}")
 
-    # The turtle stopped half way.
+    # The turtle stopped before it reached the goal.
     assert "stopped  FAILED  2 of 3 expectations held" in result.out
     assert "failed:" not in result.out
 

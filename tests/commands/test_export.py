@@ -467,7 +467,7 @@ def test_a_folder_without_permission_is_said(tftool, run, tmp_path):
 @pytest.mark.skipif(os.name == "nt", reason="signals are a thing of Unix")
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_an_interrupt_leaves_nothing(tftool, run, tmp_path, monkeypatch, number):
-    # The signal comes while the second block of rows is written.
+    # The signal arrives while the second block of rows is written.
     before = sorted(tmp_path.iterdir())
     blocks = []
     write = trajectory_files.rows_as_text

@@ -110,7 +110,7 @@ def test_what_could_not_be_read_before_counts_as_well(tftool, fleet, tmp_path, s
 @pytest.mark.parametrize("suffix", ["jsonl", "csv", "parquet"])
 @pytest.mark.parametrize(("first", "then"), [("info", "doctor"), ("doctor", "info")])
 def test_rows_of_another_command_are_not_gone_on_with(tftool, fleet, tmp_path, first, then, suffix):
-    """Check that rows of another command are refused: they lack the new results."""
+    """Check that rows of another command are refused, because they lack the new results."""
     if suffix == "parquet":
         pytest.importorskip("pyarrow.parquet", reason="the extra 'parquet'")
     output = tmp_path / f"found.{suffix}"
@@ -144,7 +144,7 @@ def test_rows_of_a_process_that_was_killed_become_part_of_the_table(tftool, flee
     some = sorted(map(str, fleet.glob("day*/run*.mcap")))[:3]
     left = tmp_path / "left.jsonl"
     tftool("doctor", *some[:2], "-o", left)
-    # The interrupted run leaves the rows so far, and half of a row.
+    # The interrupted run leaves the rows that it has written, the last one incomplete.
     (tmp_path / "found.parquet.part").write_bytes(left.read_bytes() + b'{"source": "ha')
     result = tftool("doctor", *some, "-o", tmp_path / "found.parquet", "--resume")
     assert "(2 were in the file already: " in result.out
@@ -308,7 +308,7 @@ def cluster(tmp_path):
 def test_a_refused_scheduler_leaves_no_thread_behind(tftool, fleet, tmp_path):
     pytest.importorskip("distributed", reason="the extra 'fleet'")
     output = tmp_path / "found.jsonl"
-    # The garbage collection would end the thread later, but it must have ended before.
+    # The command itself must end the thread, so the garbage collector is off.
     gc.disable()
     try:
         result = tftool("doctor", fleet, "-o", output, "--scheduler", "nothing")

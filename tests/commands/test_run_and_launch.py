@@ -258,7 +258,7 @@ def test_what_goes_wrong_in_a_node_is_told_with_its_own_line(tmp_path, capsys, c
 def test_an_endless_loop_is_named_by_node_and_line(tmp_path, capsys, monkeypatch):
     from tftool.ros.host import fibers
 
-    # Still more than a second, because the code before the loop is slow on a busy machine.
+    # The limit is more than a second, because the code before the loop is slow on a busy machine.
     monkeypatch.setattr(fibers, "PATIENCE", 1.5)
     monkeypatch.setattr(fibers, "GIVE_UP", 3.0)
     file = tmp_path / "endless.py"
@@ -280,7 +280,7 @@ def test_a_busy_program_that_the_end_of_for_breaks_off_is_named_and_fails(
     tmp_path, capsys, swallows
 ):
     file = tmp_path / "busy.py"
-    # If the world gives up first, nobody stops the loop: it must not slow down all later tests.
+    # If the world gives up first, the loop still ends, so that it does not slow down later tests.
     end = "import time\nend = time.monotonic() + 20\n"
     loop = "while time.monotonic() < end:\n    pass\n"
     if swallows:

@@ -82,7 +82,7 @@ def _kind(step: list[Any], refused: TransformException) -> str:
         isinstance(refused, ConnectivityException)
         or (isinstance(refused, LookupException) and refused.looped)
     ):
-        # For this case the binding has only the base class.
+        # The binding raises only the base class in this case.
         return "TransformException"
     return type(refused).__name__
 

@@ -119,7 +119,7 @@ def as_rosbags(store, message):
 def single(store, field, value):
     if not isinstance(field.kind, str):
         return as_rosbags(store, value)
-    # In rosbags, a single byte is signed.
+    # rosbags treats a single byte as signed.
     return int.from_bytes(value, "little", signed=True) if field.kind == "byte" else value
 
 

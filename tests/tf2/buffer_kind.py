@@ -193,8 +193,8 @@ class Runner:
         question = step["tracking"], step["observation"], step["time"], step["interval"]
         self.check_velocity(step, lambda: self.buffer.lookup_velocity(*question))
         if self.quirk:
-            # Upstream's numbers are in the fields named after upstream. These are the physical
-            # ones: p at radius 1, turning at 1 rad/s, is now at 0.5 rad.
+            # Upstream's numbers are in the fields named after upstream. The numbers below are the
+            # physical ones: p at radius 1, turning at 1 rad/s, is now at 0.5 rad.
             plain = self.buffer.lookup_twist(*question)
             assert close(plain.linear, (-math.sin(0.5), math.cos(0.5), 0.0), 2e-3)
             assert close(plain.angular, (0.0, 0.0, 1.0), VELOCITY)

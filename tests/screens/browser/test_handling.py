@@ -397,7 +397,7 @@ def test_on_a_phone_panels_are_drawers_and_nothing_overprints(chromium, stage):
         page.until(lambda: page.said("innerWidth") == 400)
         drawers = ("left", "right")
         page.until(lambda: not any(page.find(f"#{name}").is_displayed() for name in drawers))
-        # Names find their places with the next picture.
+        # The next picture moves the names so that they do not overlap.
         page.until(lambda: chromium.execute_script(OVERPRINTS) == [])
         # The picture gets most of the screen.
         bar, time = page.find("#bar").rect, page.find("#time").rect

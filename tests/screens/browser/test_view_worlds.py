@@ -437,7 +437,8 @@ def test_a_mesh_is_measured_the_same_in_another_fixed_frame(chromium, tmp_path):
         # The whole ball is in the picture again, and the grid is at its lowest point.
         page.until(lambda: page.said("tftool.ground().level") == pytest.approx(-1, abs=0.01))
         page.until(lambda: page.said("tftool.pixelOf(0, 4, 0)")[1] > bottom(page.find("#bar")))
-        # The same, but x is the former y: turned back by a quarter, and 3 m to the side.
+        # The two points are the same, but x is the former y: turned back by a quarter, and 3 m to
+        # the side.
         page.find("#measure").click()
         page.find("#measure").click()
         turned = [(y, 3 - x) for x, y in ((0.6, 0.6), (-0.6, 0.6))]

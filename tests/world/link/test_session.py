@@ -48,7 +48,7 @@ def test_a_session_with_more_tokens_than_a_queue_of_zenoh_holds_can_be_joined():
             for number in range(150):
                 here.topic(f"turtle{number}/pose", Pose).subscribe(lambda pose: None)
                 here.topic(f"turtle{number}/pose", Pose).publish(build(Pose, 1.0, 2.0, 0.0))
-            # A process in between knows all others, so a newcomer gets all announcements at once.
+            # An older process knows all others, so a newcomer gets all announcements at once.
             with Link(Options("echo")) as second:
                 second.attach(new_world(), role=Role.GUEST)
                 await until(lambda: len(second.graph.entities("publisher", "subscription")) >= 300)

@@ -37,7 +37,7 @@ class TurtleTFBroadcaster(Node):
         t.transform.translation.y = msg.y
         t.transform.translation.z = 0.0
 
-        # ... and turns about z only
+        # The turtle turns about z only
         q = tf_transformations.quaternion_from_euler(0, 0, msg.theta)
         t.transform.rotation.x = q[0]
         t.transform.rotation.y = q[1]

@@ -54,7 +54,7 @@ def test_a_foreign_subscriber_gets_everything_and_statics_late(peer, domain, kin
             world.broadcast([transform("base", "laser", x=0.5)], "mounting", static=True)
             foreign = peer(kind, "sub")
             await until(lambda: world.tf.far_subscribers)
-            # A writer knows a reader a moment after the graph does; messages sent before are lost.
+            # A writer finds a reader a moment after the graph does; earlier messages are lost.
             while not any(line[0] == "tf" for line in foreign.lines):
                 world.broadcast([transform("odom", "primer")], "wheels")
                 await WallClock().sleep(seconds(0.005))
