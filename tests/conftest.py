@@ -81,7 +81,7 @@ def outside():
 
 @pytest.fixture
 def simulated(outside):
-    """Run hosted worlds on simulated time without a session; return such a connection."""
+    """Run hosted worlds on simulated time without a session; return a connection for them."""
     outside["providers"] = Simulated()
     return Connection(providers=outside["providers"])
 

@@ -92,7 +92,7 @@ def _outcome(call, words, options):
 
 
 def worst(count: int, links: int = 5) -> tuple[int, float, float]:
-    """Return the largest difference between both versions in so many lookups of one batch.
+    """Return the largest difference between both versions in a number of batch lookups.
 
     Args:
         count: Number of lookups.

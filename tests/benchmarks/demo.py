@@ -17,7 +17,7 @@ ALLOWED = 15.0
 
 
 def cost(columns: int, rows: int, duration: float) -> float:
-    """Return the processor seconds of a demo on such a terminal that ends after `duration`."""
+    """Return the processor seconds of a demo of `duration` seconds on a terminal of that size."""
     folder = tempfile.mkdtemp()
     pid, terminal = pty.fork()
     if pid == 0:

@@ -132,7 +132,7 @@ def measure(*, size, count, period, readers=1, middleware="zenoh"):
 
 
 def measure_foxglove(*, size, count, period):
-    """Send the same messages from foxglove-sdk's server; return the results of the one reader."""
+    """Send the same messages from foxglove-sdk's server; return the results of its reader."""
     subscribed = threading.Event()
 
     class Listener(foxglove.websocket.ServerListener):

@@ -83,7 +83,7 @@ def chain(depth: int, samples: int = 1000) -> World:
 
 
 def tree(frames: int, children: int) -> World:
-    """Return a tree of so many frames, each with so many children."""
+    """Return a tree with a given number of frames, and of children per frame."""
     return World(tuple((f"f{(n - 1) // children}", f"f{n}") for n in range(1, frames)), 3)
 
 

@@ -114,7 +114,7 @@ def run(count: int, threads: int = 2) -> None:
 
 
 def grow(frames: int) -> int:
-    """Insert so many frames below one root, and look some up; return the number of frames."""
+    """Insert frames below one root, and look some up; return the number of frames."""
     buffer = Buffer(NO_LIMIT, max_frames=frames + 1)
     for number in range(frames):
         for stamp in (1, 2):

@@ -202,7 +202,7 @@ def test_only_what_a_baseline_lacks_fails(tftool, tmp_path):
     assert again.status == 0
     assert "(in the baseline)" in again.out
 
-    # A report from before fingerprints has the names from which fingerprints are made.
+    # An older report has no fingerprints, but the names from which fingerprints are made.
     for row in report["findings"]:
         del row["fingerprint"]
     accepted.write_text(json.dumps([report]), encoding="utf-8")

@@ -83,7 +83,7 @@ class Drive:
         }.get(self.fault, {"map"})
 
 
-# A plan for each kind of question: at most three calls of an agent
+# Each function below is the plan of an agent for one kind of question, with at most three calls.
 
 
 async def trees(ask, drive):
@@ -192,7 +192,7 @@ def test_twenty_questions_about_broken_recordings_are_answered_by_the_plan(root)
                 except Exception as error:
                     wrong.append((question.__name__, drive.name, repr(error)))
 
-        # Each answer takes a process. So every fault is used for two questions, and every question
+        # Each answer needs a process. So every fault is used for two questions, and every question
         # for three faults.
         asked = [
             (question, drive)

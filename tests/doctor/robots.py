@@ -64,7 +64,7 @@ class Robot:
         return value + abs(value) * float(self.noise.uniform(-share, share))
 
     def log(self, at: float) -> int:
-        """Return the log time of data that arrives after so many seconds."""
+        """Return the log time of data that arrives `at` seconds after the start."""
         return seconds(self.start if self.log_from is None else self.log_from) + seconds(at)
 
     def sent(

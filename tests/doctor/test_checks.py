@@ -543,7 +543,7 @@ def test_an_optical_frame_with_the_axes_of_the_body():
     made = robot()
     made.static("base_link", "camera_link")
     made.static("camera_link", "camera_optical_frame", (0.0, 0.0, 0.0, *NO_TURN))
-    # From body axes to optical axes is a third of a turn about a diagonal.
+    # The rotation from body axes to optical axes is a third of a turn about a diagonal.
     assert found(made, "optical-convention").facts["off"] == pytest.approx(120.0)
 
     right = robot()

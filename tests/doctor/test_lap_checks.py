@@ -8,7 +8,7 @@ from tftool.base.stamps import seconds
 
 
 def twice(back: float) -> Robot:
-    """Return 20 s of transforms after which time goes back by so many seconds, and goes on."""
+    """Return 20 s of transforms, after which time goes back by `back` seconds, and goes on."""
     made = Robot()
     for at in range(40):
         for parent, child in (("odom", "base_link"), ("base_link", "arm")):

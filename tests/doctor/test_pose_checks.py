@@ -74,7 +74,8 @@ def test_a_pose_that_is_repeated_until_the_body_is_seen_again_is_told():
     assert ids(made) == ["frozen-pose"]
     finding = found(made, "frozen-pose")
     assert finding.confidence is Confidence.LIKELY
-    # From 3 s to the last sample before 3.5 s; then from the pose at 3 s to the pose at 3.5 s.
+    # The pose is repeated from 3 s to the last sample before 3.5 s. The jump is the distance
+    # between the poses at 3 s and 3.5 s.
     assert finding.message == (
         "hat in world repeats its last pose for up to 438 ms, and jumps 0.25 m within 62.5 ms "
         "when it moves again"

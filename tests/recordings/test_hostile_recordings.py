@@ -145,7 +145,7 @@ def test_a_message_outside_of_chunks_that_is_too_large_is_left_out_and_told(tmp_
     (channel,) = struct.unpack_from("<H", data, data.index(b"\x03\x00\x00\x00/tf\x03") - 4)
     large = struct.pack("<BQHIQQ", 5, 22 + 300_000, channel, 0, 10**18, 10**18)
     large += bytes(300_000)
-    # Before the record that ends the data
+    # The large record is inserted before the record that ends the data.
     end = data.rindex(struct.pack("<BQ", 0x0F, 4))
     path.write_bytes(data[:end] + large + data[end:])
     monkeypatch.setattr(container, "LARGEST", 1 << 18)
@@ -264,7 +264,7 @@ def test_a_database_whose_rows_are_made_up_is_no_recording(tmp_path, statements)
 
 
 def test_of_a_database_that_is_no_recording_nothing_is_left_open(tmp_path, monkeypatch):
-    # To read the data that is only in the log beside the file, both are copied.
+    # The file and its log are copied, because some data is only in the log.
     copies = tmp_path / "copies"
     copies.mkdir()
     monkeypatch.setattr(tempfile, "tempdir", str(copies))

@@ -30,7 +30,7 @@ def sample(stamp, parent, child, seed):
 
 
 def write(path, messages=40, **options):
-    """Write a drive of so many messages; return the samples by edge."""
+    """Write a drive with a given number of messages; return the samples by edge."""
     sent = {}
     with tftool.write_recording(path, **options) as recording:
         mount = sample(0, "base_link", "laser", 7)

@@ -176,7 +176,7 @@ def take(pairs, payload, ask, *, start=0, length=None, is_cdr=False):
 
 
 def room(rows):
-    """Return columns for so many transforms, and the state of an edge without any."""
+    """Return columns for a number of transforms, and the state of an edge without samples."""
     state = array("q", (0, -1, 1, 0, 0, 0))
     return np.zeros((rows, 8), dtype=np.int64), np.zeros(rows, dtype=np.int32), state
 

@@ -2,7 +2,7 @@
 
 
 def spin(node, seconds):
-    """Spin a node for so many seconds."""
+    """Spin a node for a number of seconds."""
     import rclpy
     from rclpy.task import Future
 

@@ -109,7 +109,7 @@ def test_a_packages_modules_are_there_after_no_more_than_importing_it(use):
     ],
 )
 def test_an_import_alone_lets_buffers_transform_a_packages_messages(package, kind):
-    # In a new process, because the registration lasts as long as the process.
+    # The import runs in a new process, because a registration lasts as long as its process.
     code = (
         "from tftool.ros.host.importing import ros_free\n"
         "with ros_free():\n"

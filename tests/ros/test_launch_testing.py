@@ -474,7 +474,7 @@ def test_a_file_of_launch_tests_is_run_by_name(tmp_path, tftool, simulated, monk
     (tmp_path / "robot" / "robot" / "__init__.py").touch()
     (tmp_path / "robot" / "package.xml").write_text("<package><name>robot</name></package>")
     file = tmp_path / "nodes.test.py"
-    # Without the mark, which the pytest around this test does not know.
+    # The mark is removed, because the pytest that runs this test does not know it.
     text = (
         "import robot, sys\nassert sys.argv[0] == 'launch_test'\n"
         + HEAD

@@ -404,7 +404,7 @@ def test_a_world_without_turtles_shows_its_frames_and_a_pair_of_them(frames):
 
     assert "laser in map" in text
     assert "Frames in map" in text
-    # In the picture, in the tree and in the echo
+    # The name is in the picture, in the tree and in the echo.
     assert text.count("laser") == 3
 
 
@@ -475,7 +475,7 @@ def test_only_lines_that_changed_are_painted(turtles, monkeypatch):
             Panel, "refresh", lambda self, *regions, **how: painted.extend(r.y for r in regions)
         )
         app.panel("field").show([*app.panel("field")._strips[:3]])
-        # Before the app's next update draws the field again
+        # The recording of drawn rows ends before the app's next update draws the field again.
         monkeypatch.undo()
 
     visit(scene, (100, 30), steps)

@@ -147,7 +147,7 @@ def test_two_trees_that_are_joined_are_drawn_where_the_echo_says(terminal, tmp_p
     demo.shows("apart: map, 2 frames")
     with Process("static", "--x", "10", "--frame-id", "map", "--child-frame-id", "world"):
         demo.until(lambda text: "Frames in map" in text and "apart" not in text, "one tree")
-    # The echo of the picture's pair: 10 m from map to world, with the turtle in the centre.
+    # The echo shows the picture's pair: 10 m from map to world, with the turtle in the centre.
     demo.until(lambda text: "turtle1 in world" in text, "turtle1 in world")
     demo.press("k", "Enter", "k", "k", "k", "Enter", "j", "j", "j")
     demo.until(

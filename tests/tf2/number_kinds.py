@@ -50,7 +50,7 @@ def same_rotation(found: Any, wanted: Any) -> bool:
 
 
 def rpy_roundtrip(step: Step) -> None:
-    """Check angles at the poles, where only upstream's angles mean another rotation."""
+    """Check angles at the poles, at which upstream's angles are a different rotation."""
     fields(step, "rpy", "want")
     turned = conversions.quaternion_from_rpy(*step["rpy"])
     angles = conversions.rpy_from_quaternion(turned)

@@ -461,7 +461,7 @@ def test_a_broken_chunk_costs_only_what_lies_behind_the_break_in_it(tmp_path):
     data = bytearray(path.read_bytes())
     payload = next(raw for _, raw in before["/tf"] if raw in data[chunk.chunk_start_offset :])
     broken = data.index(payload, chunk.chunk_start_offset) - 31
-    # The length of a record, which then extends beyond the end of the chunk
+    # With this length, the record extends beyond the end of the chunk.
     data[broken + 1 : broken + 9] = b"\xff\xff\xff\x00\x00\x00\x00\x00"
     path.write_bytes(data)
 

@@ -36,7 +36,7 @@ def holed_world():
 
 
 def clicked(page, canvas, pixel):
-    """Click into a canvas, so many pixels from its left side."""
+    """Click into a canvas, `pixel` pixels from its left side."""
     element = page.find(canvas)
     x = round(pixel - element.size["width"] / 2)
     ActionChains(page.driver).move_to_element_with_offset(element, x, 0).click().perform()

@@ -423,7 +423,7 @@ def test_what_is_kept_of_a_session_is_the_last_message_of_each_topic_thinned_out
     for x in (1.0, 2.0):
         goal.publish(point_stamped(world.clock.epoch, "world", x, 0.0, 0.0))
 
-    for _ in range(2):  # sent to pages meanwhile, or not
+    for _ in range(2):  # before and after the rounds that send to pages
         kept = {track.topic: track for track in displays.latest(300)}
         assert [one.shapes[0].places.tolist() for one in kept["/goal"].messages] == [
             [[2.0, 0.0, 0.0]]

@@ -61,12 +61,12 @@ def test_trails_of_a_long_recording_are_as_fine_as_it(chromium, tmp_path):
     page = opened(chromium, path, "fixed=map&trails=1&length=10")
 
     def fine(moment):
-        """Return whether the trail of a moment is drawn finely; at first a coarse one is."""
+        """Return the points of the trail once it is drawn finely; the first trail is coarse."""
         points = page.said("tftool.trailOf('runner')") or []
         steps = [math.dist(one, other) for one, other in itertools.pairwise(points)]
         angle = math.tau * moment / 6
         ends = points and math.dist(points[-1], (math.cos(angle), math.sin(angle), 0.0)) < 1e-3
-        # 30 positions per second, on the circle, up to the frame's present position
+        # The trail has 30 positions per second, and ends at the frame's present position.
         is_fine = ends and len(steps) >= 299 and max(steps) < 1.1 * math.tau / 6 / 30
         return points if is_fine else None
 
@@ -94,7 +94,7 @@ def test_a_recording_is_scrubbed_played_and_measured_without_a_server(chromium, 
     assert page.said("tftool.pair()")["translation"] == pytest.approx(wanted["translation"])
     x = buffer.lookup_transform("map", "base", at).transform.translation.x
     page.until(lambda: page.x_of("base") == pytest.approx(x))  # drawn in the next picture
-    # At its end, playing stops: a file has no live data.
+    # Playing stops at the end of the data: a file has no live data.
     page.scrub(2.9)
     page.find("#play").click()
     page.until(lambda: page.said("tftool.moment()") == page.said("tftool.reach().newest"))

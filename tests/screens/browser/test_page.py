@@ -163,7 +163,7 @@ def test_the_sliders_bounds_are_there_before_anything_is_drawn(chromium, stage):
 
 
 def test_playing_runs_through_the_past_into_the_present(chromium, stage):
-    # Eighty seconds of data leave time for a look during playing.
+    # Playing takes eighty seconds at this speed, so there is time for a look in between.
     for second in (1.0, 9.0):
         stage.put(second, at=second)
     page = Page(chromium, stage, "speed=0.1")
@@ -447,7 +447,7 @@ def test_a_frame_leaves_a_trail_when_asked_to(chromium, stage):
 
     page.find("#with-trail").click()
     page.until(lambda: len(page.said("tftool.trails()")) == 1)
-    # 30 positions per second, and the present one
+    # The trail has 30 positions per second, and the present one.
     page.until(lambda: page.said("tftool.trails()")[0] == 62)
     page.find("#trails").click()
     page.until(lambda: len(page.said("tftool.trails()")) == 2)

@@ -556,7 +556,7 @@ def test_a_slow_page_misses_pictures_and_nothing_is_queued_for_it():
             assert known.sent == 2
             await client.say(type="got", sequence=2)
             await client.hear()
-            # Dropped pictures are not sent: the first picture that it gets is the newest.
+            # Dropped pictures are not sent: the first picture that the client gets is the newest.
             assert client.poses["turtle"][0] == 2.0
             assert client.sequence == 3
 
@@ -574,7 +574,7 @@ def test_a_page_cannot_claim_to_have_drawn_what_it_never_got():
             (known,) = page.clients
             while known.skipped < 5:
                 await world.clock.sleep(seconds(0.002))
-            # At most two pictures were sent before its message arrived, and two more.
+            # At most two pictures were sent before the client's message arrived, and two after it.
             assert known.sent <= 4
 
     serve(test)

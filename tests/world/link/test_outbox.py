@@ -19,7 +19,7 @@ def out():
 
 
 class Stuck:
-    """Send function that blocks until it is released, as for a receiver that reads nothing."""
+    """Send function that blocks until its release, like one whose receiver reads nothing."""
 
     def __init__(self):
         self.begun, self.let_go = threading.Event(), threading.Event()

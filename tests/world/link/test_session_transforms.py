@@ -57,7 +57,7 @@ def test_what_came_in_is_not_sent_out_again():
                 two.there.broadcast([sample(step)], "guest")
                 two.there.topic("turtle1/cmd_vel", Twist).publish(twist(float(step)))
             await until(lambda: len(echoes) >= 5 and len(commands) >= 5)
-            # A transform that came back would have arrived before the response to this call.
+            # A returned transform would have arrived before the response to this call.
             two.here.serve("clear", lambda request: None, Empty)
             await until(lambda: two.there.has_service("clear"))
             await two.there.call("clear", Empty.Request())

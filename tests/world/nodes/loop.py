@@ -32,7 +32,7 @@ class Loop:
 
     def sample(self):
         turtles = {name: turtle.place for name, turtle in self.sim.turtles.items()}
-        # turtle1's pose five seconds before, interpolated between two ticks as in the buffer
+        # The past pose of turtle1 is interpolated between two ticks, as in the buffer.
         then = self.world.clock.now() - seconds(5)
         if self.world.buffer.can_transform("world", "turtle1", then):
             past = self.world.buffer.lookup_transform("world", "turtle1", then)

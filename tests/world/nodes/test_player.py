@@ -159,7 +159,7 @@ def test_seeking_goes_no_further_than_the_recording(file):
     )
 
     assert [found for found in children(played) if found[0] == 1.0][-1] == (1.0, 3.0)
-    # At its end, playing starts again.
+    # Playing starts again at the end of the recording.
     assert children(played)[-1] == (5.0, 3.0)
 
 

@@ -25,7 +25,7 @@ def test_the_demo_places_every_point_of_turtle3_as_turtle1_sees_it():
 
     said = log_texts(world, "turtle_tf2_pose_drawer")
     assert log_texts(world, "turtle_tf2_message_broadcaster") == ["Successfully spawned turtle3"]
-    # A point per tick from the third second on, each in the instant of its publication
+    # From the third second on, a point is logged per tick, in the instant of its publication.
     assert len(said) == world.topics()[TOPIC].count == 313
     assert said[0] == "Point of turtle3 in frame of turtle1: x:-1.544445 y:-3.544445 z:0.000000"
     x, y, _ = sim.turtles["turtle3"].place

@@ -71,7 +71,7 @@ def test_the_correction_jumps_now_and_then_and_stands_still_in_between():
 
     assert offsets[0] == Transform.identity()
     jumps = [k for k in range(1, len(offsets)) if offsets[k] != offsets[k - 1]]
-    # Corrections at 2 s and 4 s, seen at the same instant
+    # The corrections at 2 s and 4 s are visible at the same instants.
     assert jumps == [3, 7]
 
 
