@@ -126,7 +126,7 @@ def questions(
             moment = world.newest - 1 - random.randrange(back * PERIOD) if back else 0
             words += [target, str(moment), source]
             if kind == "full":
-                # The pose up to five seconds before, with the fixed frame f0.
+                # The pose is up to five seconds older, with the fixed frame f0.
                 words += [str(max(moment - random.randrange(5 * SECOND), 2 * SECOND)), "f0"]
         return words
 

@@ -151,7 +151,7 @@ class Commands:
 
     def insert(self, asked, *words):
         samples = [
-            # Each sample has new number objects, as when it comes from a message.
+            # Each sample has new number objects, like a sample decoded from a message.
             self.side.sample(
                 "world", "turtle1", int(stamp), self.side.transform(self.table[int(pose)])
             )

@@ -150,7 +150,7 @@ def _records(folder: Path) -> None:
 
         def run(rolling=rolling, channel=channel, count=count, payloads=payloads, each=each):
             for number in range(count):
-                # 100,000 transforms per second.
+                # The log time advances by a second per 100,000 transforms.
                 now = START + number * each * 10_000
                 rolling.take(channel, now, payloads[number % 1000], each)
             rolling.close()

@@ -76,7 +76,7 @@ def test_two_unknown_publishers_are_seen_from_the_values():
 @pytest.mark.parametrize("jitter", [0.0, 0.004])
 @pytest.mark.parametrize("speed", [3.0, 14.0, 40.0, -25.0])
 def test_a_fast_wheel_has_one_publisher(speed, jitter):
-    # Speeds in radians per second at 51 ms: up to two thirds of a turn between two samples
+    # Speeds are in radians per second: at 51 ms, up to a third of a turn between two samples.
     made = robot()
     noise = np.random.default_rng(3)
     for tick in range(150):

@@ -304,7 +304,8 @@ def test_the_field_lies_in_the_picture_as_its_frame_does():
     }
     # A column is 0.554 m: 18 of 80 columns are 10 m, and the field has 20 more.
     assert blue == {(column, row) for row in range(10, 20) for column in range(18, 38)}
-    # A drawing along the field's x axis, two metres from it, goes up, two metres from the right.
+    # The drawing is parallel to the field's x axis at two metres. On the screen it is a vertical
+    # line, two metres from the right.
     assert {column for column, _ in dotted(lines)} == {math.floor((8.0 + FIELD) / FIELD * 20)}
 
 

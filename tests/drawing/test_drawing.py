@@ -76,7 +76,7 @@ def many(count, fan=3):
 
 
 def test_dot_is_what_view_frames_writes():
-    # spec 7.6: numbers as Python floats, Buffer length before Most recent, a trailing \n
+    # spec 7.6: numbers are Python floats, Buffer length is before Most recent, \n is at the end
     drawn = draw(snapshot(root("world"), base(), link("arm", "base")), "dot").content
 
     assert drawn == (

@@ -16,7 +16,7 @@ def test_a_wrench_does_the_same_work_in_either_frame(a_from_b, first, second):
     power_in_b = np.dot(force, linear) + np.dot(torque, angular)
     moved_force, moved_torque = carry.wrench(a_from_b, force, torque)
 
-    # The velocity of the same body, expressed at the origin of a.
+    # The power is computed from the velocity of the same body at the origin of a.
     spin = a_from_b.rotate(angular)
     speed = a_from_b.rotate(linear) + np.cross(a_from_b.translation, spin)
     power_in_a = np.dot(moved_force, speed) + np.dot(moved_torque, spin)

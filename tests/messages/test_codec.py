@@ -281,7 +281,7 @@ def test_an_empty_message_may_come_without_its_byte():
 def test_a_value_that_was_changed_in_place_and_does_not_fit_is_not_written(text, name, value, told):
     kind = made(text)
     message = kind()
-    # This avoids the checks of assignment, like appending to a list.
+    # This assignment is not checked, like an append to a list.
     setattr(message, f"_{name}", value)
 
     if not told:

@@ -289,8 +289,8 @@ def test_a_chunk_that_cannot_be_unpacked_is_told_once(tmp_path, name):
 def test_a_message_that_is_shorter_than_its_head_is_told(tmp_path, is_chunked):
     path = CONTAINERS["mcap none" if is_chunked else "mcap unchunked"](tmp_path, SENT)
     raw = path.read_bytes()
-    # The header of a message in the middle, by channel and sequence; the body of the message
-    # follows.
+    # The position is the header of a message in the middle of the file, found by its channel and
+    # sequence number.
     place = raw.index(b"\x00\x01\x00\x00", len(raw) // 3) - 31
     assert raw[place] == 0x05
     changed = bytearray(raw)

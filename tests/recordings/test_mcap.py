@@ -108,7 +108,7 @@ def test_the_strict_reader_reads_small_chunks_none_and_attachments(
         two = writer.channel(Channel("/b", "Kind", "json", "jsonschema", b"{}"))
         for number in range(20):
             writer.write((one, two)[number % 2], 100 + number, b"%d" % number, 90, number)
-        # The record as in another file: two times, two names with their lengths, the content
+        # A record in another file has two times, two names with their lengths, and the content.
         other = tmp_path / "other"
         other.write_bytes(notes.end())
         body = other.read_bytes()[RECORD.size :]

@@ -124,8 +124,8 @@ def test_keeps_the_same_edges_where_there_are_more_than_are_kept(monkeypatch, at
     draw = random.Random(8)
     messages = []
     for number in range(900):
-        # Names of many lengths, some messages in big-endian order, some with more rows than
-        # reserved
+        # Names have many lengths, some messages are in big-endian order, and some have more rows
+        # than reserved.
         names = [("a" * draw.randrange(1, 9), f"{draw.randrange(3 + number // 9)}") for _ in "ab"]
         sent = [(number, *pair) for pair in names[: draw.randrange(3)]]
         if number % 50 == 7:

@@ -82,7 +82,7 @@ def test_an_earlier_trail_ends_where_its_turtle_was(danced):
         for t in moment.picture.frames
         if t.is_turtle
     ]
-    # The distance that a turtle moves between two looks
+    # A trail may lack the distance that its turtle moves between two looks.
     assert max(ends) < 0.15
     assert len(moment.picture.pen.strokes) < len(danced.simulator.trail.segments)
 

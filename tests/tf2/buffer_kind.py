@@ -18,7 +18,7 @@ NO_TURN = (0.0, 0.0, 0.0, 1.0)
 
 
 def sample(step: Step) -> TransformStamped:
-    # The pose is not checked, as when it comes from a message.
+    # The pose is not checked, like a pose decoded from a message.
     pose = transform(tuple(step.get("xyz", (0.0, 0.0, 0.0))), tuple(step.get("q", NO_TURN)))
     return TransformStamped(step["stamp"], step["parent"], step["child"], pose)
 

@@ -15,7 +15,7 @@ pytestmark = pytest.mark.skipif(
     CHROMIUM is None or CHROMEDRIVER is None, reason="no chromium with a driver here"
 )
 
-# Delay for every picture, as on a slow machine
+# This delays every picture, as on a slow machine.
 SLOW = """
 const spin = () => {
   const end = performance.now() + 60;
@@ -80,10 +80,10 @@ def test_where_nothing_moves_the_grid_stays_in_the_picture(chromium, stage):
             """
         )
 
-    # The x axis on the ground, drawn live and in the stored picture
+    # The red pixels are the x axis on the ground, drawn live and in the stored picture.
     aside = "document.getElementById('floor').hidden"
     page.until(lambda: page.said(aside) is False)
     assert red() > 1000
     page.find("#grid").click()
     page.until(lambda: page.said(aside) is True)
-    assert red() < 200  # the axes in the corner
+    assert red() < 200  # only the axes in the corner

@@ -150,7 +150,7 @@ def follows(value, javascript):
 def test_a_jump_is_marked_where_there_is_a_robot_and_not_among_turtles(moving, marked):
     filled = Buffer(seconds(60))
     for tick in range(100):
-        # A metre per second along x, and half a metre sideways from the fifth second on
+        # The frame moves a metre per second along x, and jumps half a metre sideways at 5 s.
         pose = Transform((tick / 10, 0.5 if tick >= 50 else 0.0, 0.0))
         stamp = EPOCH + seconds(tick / 10)
         filled.set_transform(TransformStamped(stamp, "map", moving, pose), "driver")

@@ -149,12 +149,13 @@ def test_axes_are_seen_through_solids_which_are_on_the_ground_and_are_measured(c
     with view(tmp_path, file) as address:
         looks = "names=0&arrows=0&grid=0&scale=2&theme=dark&view=orbit&camera=-6,-6,5,0,0,0,1"
         page = Page(chromium, address, looks)
-        # The red x axis of 0.4 m, in the middle of a cube of 2 m
+        # The red pixels are the x axis of 0.4 m, in the middle of a cube of 2 m.
         page.until(lambda: page.driver.execute_script(seen) > 10)
         page.find("#through").click()
         page.until(lambda: page.driver.execute_script(seen) == 0)
 
-        # The cube's lower side; and two points of the cube's edge, one directly above the other
+        # The ground is at the cube's lower side. The measured points are on the cube's edge, one
+        # directly above the other.
         assert page.said("tftool.ground().level") == -1
         page.find("#measure").click()
         for place in ((-1, -1, 0.5), (-1, -1, -0.5)):

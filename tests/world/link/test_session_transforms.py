@@ -160,7 +160,7 @@ def test_a_long_path_in_one_message_is_taken_in_as_if_one_by_one():
             two.there.buffer.listen(lambda one, static, who: told.append((one, static, who)))
             now = two.here.clock.now()
             sent = [*path(now), *path(now, "turtle2")]
-            # One sample that no buffer accepts, and one from an hour ago
+            # No buffer accepts the first of these samples; the second is from an hour ago.
             sent[10] = TransformStamped(
                 now + 10, "world", "turtle1", Transform((math.nan, 0.0, 0.0))
             )

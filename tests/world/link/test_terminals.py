@@ -81,7 +81,7 @@ def test_the_order_does_not_matter(terminal):
     echo = terminal("echo", "world", "turtle1", "--precision", "1", "--rate", "5")
     echo.shows("- Translation: [5.5, 5.5, 0.0]")
     teleop.press("Up")
-    # Two metres, or less if a busy machine omits ticks
+    # The turtle drives two metres, or less if a busy machine omits ticks.
     echo.until(
         lambda screen: (re.findall(r"- Translation: \[([\d.]+), 5.5", screen) or ["0"])[-1] > "6.0",
         "turtle1 driven by the other terminal's keys",

@@ -243,7 +243,7 @@ def test_beside_one_that_tells_its_strokes_another_is_drawn_by_the_poses(world):
 
     ends = [one.x1 for one in far.trail.segments]
     assert far.background == Color(9, 9, 9)
-    # 63 updates of 16 ms in each direction
+    # The turtle drives for 63 updates of 16 ms in each direction.
     assert (max(ends), min(ends)) == pytest.approx((5.544445 + 1.008, 5.544445 - 1.008), abs=1e-4)
     assert len(ends) == 2 * 63
 

@@ -156,7 +156,7 @@ def test_stale_data_stops_the_follower_with_one_clear_sentence_until_it_is_fresh
         "stopping until there is a newer transform",
         "There are new transforms of turtle1: following again",
     ]
-    # t = 3, 4, 5, the stop at 6, and 10, 11, 12 again
+    # The commands are sent at 3, 4 and 5 s, the stop at 6 s, then commands at 10, 11 and 12 s.
     assert len(commands) == 7
     assert commands[3] == twist()
     assert commands[4] != twist()

@@ -114,6 +114,6 @@ def test_nothing_is_measured_before_the_laser_is_mounted_and_the_robot_known():
     play(world, 3.0)
 
     assert "laser_point" not in world.buffer.frames()
-    # The true pose exists by then, but no odometry to correct.
+    # The true pose was published, but there is no odometry to correct.
     assert [one.level for one in world.log.records] == ["WARN"]
     assert "Cannot correct the map" in log_texts(world)[0]

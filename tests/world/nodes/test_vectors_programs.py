@@ -105,7 +105,7 @@ def test_squares_are_drawn_tick_for_tick_as_in_the_reference():
             assert close(getattr(pose, name), row[name], kind)
     ticks = [row["tick"] for row in expected]
     assert ticks[1] - ticks[0] == case["forward_updates_per_side"]
-    # One tick to publish the turn, and 244 ticks of turning
+    # One tick publishes the turn, and the turn takes 244 ticks.
     assert ticks[3] - ticks[2] - 1 == case["turn_updates_per_corner"]
     assert ticks[5] - ticks[1] == case["ticks_per_side_and_corner"]
 

@@ -101,7 +101,7 @@ def test_teleports_come_first_in_the_next_update(case):
         "absolute": ("teleport_absolute", TeleportAbsolute.Request),
         "relative": ("teleport_relative", TeleportRelative.Request),
     }
-    # All requests are sent before a response arrives, because responses come with the tick.
+    # All requests are sent before a response arrives, because the tick sends the responses.
     for number, request in enumerate(case["requests"]):
         service, kind = kinds[request["kind"]]
         wish = build(kind, **{name: value for name, value in request.items() if name != "kind"})

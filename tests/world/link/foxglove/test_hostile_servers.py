@@ -446,7 +446,7 @@ def test_a_server_that_restarts_is_joined_again_with_its_statics(robots):
                 if number < 3:
                     robot.stop()
                     await until(lambda: link.graph.is_empty)
-                    # Its data stays in the buffer.
+                    # The data of the stopped server stays in the buffer.
                     assert set(world.buffer.frames()) == {"odom", "base", "laser"}
                     assert link.departures == number + 1
                     robot = robots(port=port)
