@@ -101,7 +101,13 @@ def test_spans_apart_are_said(tftool, tmp_path):
     library.export(frames(start=START + 10**13), path=tmp_path / "b.mcap")
     words = ("diff", tmp_path / "a.mcap", tmp_path / "b.mcap")
 
-    assert "--align start" in tftool(*words).err
+    result = tftool(*words)
+    assert result.status == 1
+    assert "--align start" in result.err
+    assert "base in map not compared - - no time in common" in " ".join(result.out.split())
+    assert result.out.endswith("1 of 2 links compared, the same within 1 mm and 0.1°.\n")
+    assert json.loads(tftool(*words, "--json").out)["differs"] is True
+    assert "`not compared`" in tftool(*words, "--markdown").out
     assert tftool(*words, "--align", "start").err == ""
 
 

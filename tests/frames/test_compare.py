@@ -128,7 +128,9 @@ def test_spans_apart_are_compared_when_asked_to():
     apart = tftool.diff(frames(), later)
     aligned = tftool.diff(frames(), later, align_starts=True)
 
-    assert not apart
+    assert apart
+    assert [one.child for one in apart.changed] == ["base"]
+    assert apart.links[0].changes == ("not compared",)
     assert apart.links[0].displacement is None
     assert "--align start" in apart.notes[0]
     assert changes(aligned) == {"base": (Change.pose,)}

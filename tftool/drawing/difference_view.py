@@ -55,15 +55,20 @@ def _table(rows: list[tuple[str, ...]], width: int | None) -> list[str]:
 
 def summary(differences: Differences) -> str:
     """Return a sentence with the number of transforms that differ between A and B."""
-    count, total = len(differences.changed), len(differences.links)
+    unknown = sum(Change.unknown in one.changes for one in differences.links)
+    count, total = len(differences.changed) - unknown, len(differences.links)
     limit = differences.tolerance
     measures = [f"{limit.millimetres:g} mm", f"{limit.degrees:g}°"]
     if limit.rate_percent is not None:
         measures.append(f"{limit.rate_percent:g} % of the rate")
     links = "link" if total == 1 else "links"
     if not count:
-        return f"{total} {links}, the same within {' and '.join(measures)}."
-    unsure = sum(one.displacement is None and one.is_same for one in differences.links)
+        compared = (
+            f"{total - unknown} of {total} {links} compared" if unknown else f"{total} {links}"
+        )
+        same = f", the same within {' and '.join(measures)}" if unknown < total else ""
+        return f"{compared}{same}."
+    unsure = unknown + sum(one.displacement is None and one.is_same for one in differences.links)
     beside = f", {unsure} not measured" if unsure else ""
     differ = "differs" if count == 1 else "differ"
     return f"{count} of {total} {links} {differ} by more than {' or '.join(measures)}{beside}."

@@ -50,6 +50,9 @@ class Change(StrEnum):
     """Pose differs by more than the tolerance."""
 
     rate = "rate"
+    unknown = "not compared"
+    """Moves, and the poses of the two sets cannot be compared at any time."""
+
     same = "same"
 
 
@@ -185,11 +188,11 @@ class Differences:
 
     @property
     def changed(self) -> tuple[LinkDifference, ...]:
-        """Return the frames that differ between A and B by more than the tolerance."""
+        """Return the frames that differ by more than the tolerance, or could not be compared."""
         return tuple(one for one in self.links if not one.is_same)
 
     def __bool__(self) -> bool:
-        """Whether any frame differs between A and B by more than the tolerance."""
+        """Whether any frame differs by more than the tolerance, or could not be compared."""
         return bool(self.changed)
 
 
@@ -276,6 +279,8 @@ def _compared(
         note = "a joint, whose position is unknown"
     else:
         offset, note = _moving_offset(child, first, second, held, shift, before.parent, tolerance)
+        if offset is None and not changes:
+            changes.append(Change.unknown)
     if offset is not None and (
         # Written with `not`, so that NaN is a difference.
         not offset.worst_millimetres <= tolerance.millimetres
@@ -444,7 +449,8 @@ def diff(
         align_starts: Whether times always count from each set's start.
 
     Returns:
-        All frames with their changes. The truth value of the result is False if nothing changed.
+        All frames with their changes. The truth value of the result is False if nothing changed
+        and every moving frame could be compared.
 
     Raises:
         InputError: If a path cannot be read, or a set has no frames.
