@@ -117,7 +117,9 @@ def open_frames(
                 tf_topics=tf_topics,
                 progress=progress,
             )
-    robot = DescriptionOptions(joints or {}, arguments or {}, Path(urdf) if urdf else None)
+    robot = DescriptionOptions(
+        joints or {}, arguments or {}, Path(urdf) if urdf is not None else None
+    )
     recording = RecordingOptions(no_cache, with_odometry, tuple(tf_topics))
     word = None if place is None else os.fspath(place)
     far = None if word is None else reach_at(word)

@@ -139,3 +139,33 @@ def test_a_file_that_is_gone_while_it_is_read_is_a_sentence(tftool, file, monkey
 
     assert result.status == 3
     assert "Input/output error" in result.err
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["tree"],
+        ["echo", "map", "laser"],
+        ["explain", "map", "laser"],
+        ["info"],
+        ["info", "-o", "rows.jsonl"],
+        ["doctor"],
+        ["doctor", "run.mcap"],
+        ["doctor", "--steps"],
+        ["doctor", "-o", "rows.jsonl"],
+        ["diff", "run.mcap"],
+        ["calibrate"],
+        ["export", "-o", "out.mcap"],
+        ["edit", "-o", "out.mcap"],
+        ["edit", "run.mcap", "-o", "out.mcap", "--statics-from"],
+    ],
+)
+def test_an_empty_name_is_neither_the_session_nor_the_current_folder(
+    tftool, simulated, file, monkeypatch, words
+):
+    monkeypatch.chdir(file.parent)
+
+    result = tftool(*words, "")
+
+    assert result.status == 3, (result.out, result.err)
+    assert not (file.parent / "out.mcap").exists()

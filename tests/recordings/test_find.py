@@ -102,6 +102,8 @@ def test_nothing_is_refused(tmp_path):
     assert not names_a_path(missing)
     with pytest.raises(InputError, match="There is no file or folder"):
         find(missing)
+    with pytest.raises(InputError, match="'' names no file or folder"):
+        find("")
 
 
 def test_a_path_that_holds_one_folder_further_down_is_told(tmp_path, monkeypatch):

@@ -241,6 +241,8 @@ def find(word: str) -> Found:
     Raises:
         InputError: If the file is missing, is of an unknown kind, or cannot be read.
     """
+    if not word:  # The path "" would be the current folder.
+        raise InputError("'' names no file or folder: write a path.")
     path = Path(word)
     try:
         prefix, behind = path_behind_prefix(word)

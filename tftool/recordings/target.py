@@ -43,6 +43,17 @@ def refuse_existing(path: Path, *, force: bool) -> None:
         raise UsageError(f"'{path}' exists: add --force to replace it, or choose another name.")
 
 
+def part_of(path: Path) -> Path:
+    """Return the temporary path under which an output is written.
+
+    Raises:
+        UsageError: If the path has no name, such as `.` or `/`.
+    """
+    if not path.name:
+        raise UsageError(f"'{path}' is not a name of a file.")
+    return path.with_name(path.name + PART)
+
+
 class Target:
     """A file or folder that is written completely or not at all; a context manager.
 
@@ -64,10 +75,8 @@ class Target:
             InputError: If the file cannot be written.
         """
         self.path = path
-        self.part = path.with_name(path.name + PART)
+        self.part = part_of(path)
         self._folder = folder
-        if not path.name:
-            raise UsageError(f"'{path}' is not a name of a file.")
         refuse_existing(path, force=force)
         if os.path.lexists(path):
             if path.exists() and not path.is_file() and not path.is_dir():

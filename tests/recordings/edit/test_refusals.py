@@ -1,6 +1,7 @@
 """Tests of refused edits, and of the files that an interrupted edit leaves."""
 
 import os
+from pathlib import Path
 
 import pytest
 
@@ -24,6 +25,8 @@ def test_the_input_and_what_is_there_are_never_written_to(tmp_path, mcap):
     for output in (mcap, link):
         with pytest.raises(UsageError, match="is the input"):
             edit([str(mcap)], output, Edits(), force=True)
+    with pytest.raises(UsageError, match="not a name of a file"):
+        edit([str(mcap)], Path(), Edits(), force=True)
     with pytest.raises(UsageError, match="exists"):
         edit([str(mcap)], other, Edits())
 

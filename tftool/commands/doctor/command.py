@@ -3,6 +3,7 @@
 import json
 import sys
 from collections.abc import Mapping, Sequence
+from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -178,8 +179,8 @@ def _show_steps(connection: Connection, options: DoctorOptions, scope: Scope) ->
     (ends,), _ = pairs_and_place([], [options.pair]) if options.pair else ([("", "")], None)
     objects = []
     for word in _sources(options):
-        with fetched(word or "") as path:
-            model = Model(evidence_from(connection, path or None, options.lasting, scope))
+        with nullcontext() if word is None else fetched(word) as path:
+            model = Model(evidence_from(connection, path, options.lasting, scope))
         steps = steps_of(model, *ends)
         if options.for_programs:
             objects.append(step_view.as_object(model, steps))
@@ -264,19 +265,17 @@ def _diagnosed(connection: Connection, options: DoctorOptions, task: Examination
 
     for word in sources:
         try:
-            with fetched(word or "") as path:
-                rules = rules_of(path or None)
-                evidence = evidence_from(
-                    connection, path or None, options.lasting, task.scope, look
-                )
+            with nullcontext() if word is None else fetched(word) as path:
+                rules = rules_of(path)
+                evidence = evidence_from(connection, path, options.lasting, task.scope, look)
         except InputError as error:
             if len(sources) == 1:
                 raise
             complain("tftool doctor", str(error))
             judged.append((word or "", str(error)))
             continue
-        if path != (word or ""):
-            evidence = replace(evidence, name=word or "")
+        if word is not None and path != word:
+            evidence = replace(evidence, name=word)
         if options.mounts:
             measured = measured_mounts(Model(evidence, task.settings), before)
             before += measured

@@ -32,7 +32,7 @@ from tftool.recordings.edit.plan import EditedInput, changer_for, open_input, op
 from tftool.recordings.recording import Recording, open_recording
 from tftool.recordings.rosbag2.format import FileFacts, metadata_text, write_metadata
 from tftool.recordings.rosbag2.read import Sqlite
-from tftool.recordings.target import PART, Target, check_room, failed
+from tftool.recordings.target import Target, check_room, failed, part_of
 
 MOST_PARTS: Final = 10_000
 _ROOM: Final = 1 << 20
@@ -124,7 +124,7 @@ def _refuse_the_input(inputs: Sequence[EditedInput], output: Path) -> None:
         for path in [Path(one.name), *one.paths]:
             if output.exists() and path.exists() and output.samefile(path):
                 raise UsageError(f"'{output}' is the input: name another output.")
-            part = output.with_name(output.name + PART)
+            part = part_of(output)
             if part.exists() and path.exists() and part.samefile(path):
                 raise UsageError(
                     f"'{path}' is an input, but '{output}' would be written there: choose another "
