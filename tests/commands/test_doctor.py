@@ -232,3 +232,28 @@ def test_steps_are_a_table_or_json(tftool):
     assert refused.status != 0
     assert "cup" in refused.err
     assert tftool("doctor", "robot", "--pair", "odom:base_link").status == 2
+
+
+def test_repeated_and_unsorted_rows_of_a_pose_file_are_no_damage(tftool, tmp_path):
+    poses = tmp_path / "run.tum"
+    poses.write_text("2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n3 0 0 0 0 0 0 1\n")
+
+    result = tftool("doctor", poses, "--json")
+
+    assert result.status == 0
+    assert json.loads(result.out)["findings"] == []
+    assert "run.tum: 1 row out of order, sorted." in result.err
+    assert "run.tum: 1 row with the stamp of another row." in result.err
+    assert "Damage" not in tftool("info", poses).out
+    poses.write_text("1 0 0 0 0 0 0 1\n2 nan 0 0 0 0 0 1\n3 0 0 0 0 0 0 1\n")
+    (found,) = json.loads(tftool("doctor", poses, "--json").out)["findings"]
+    assert found["id"] == "truncated-recording"
+
+
+def test_a_stamp_0_in_a_pose_file_is_fixed_in_the_file(tftool, tmp_path):
+    (tmp_path / "run.tum").write_text("0 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n")
+
+    result = tftool("doctor", tmp_path / "run.tum")
+
+    assert "warning  zero-stamp" in result.out
+    assert "ros2 topic" not in result.out

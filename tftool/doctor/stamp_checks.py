@@ -27,7 +27,7 @@ COMPARE_CLOCKS = Fix("compare the clocks of the computers (`date`, `chronyc trac
     headline="{where} {concerned:has|have} stamp 0",
     detail="{edge}: {count} of {of} samples",
     consequence="{so}; in a lookup, 0 means the latest time",
-    fixes=(Fix("look at its publisher: `{publishers} {tf_topic}`"),),
+    fixes=(Fix("{find_unset}"),),
     causes=(
         "the stamp is never set",
         "use_sim_time without /clock",

@@ -254,6 +254,7 @@ def least_rate(link: str, period: int, later: int, wait: float) -> str:
 
 _ROS2 = {
     "publishers": "ros2 topic info --verbose",
+    "find_unset": "look at its publisher: `ros2 topic info --verbose {tf_topic}`",
     "sim_time": "set use_sim_time: {setting} for the nodes that publish them; `ros2 param get NODE "
     "use_sim_time` prints a node's setting",
     "which_clock": "`ros2 param get NODE use_sim_time` and `date` on its computer show which",
@@ -272,6 +273,7 @@ _ROS2 = {
 }
 _ROS1 = {
     "publishers": "rostopic info",
+    "find_unset": "look at its publisher: `rostopic info {tf_topic}`",
     "which_clock": "`rosparam get use_sim_time` and `date` on its computer show which",
     "sim_time": "`rosparam set use_sim_time {setting}`, then start the nodes that publish them "
     "again: a node reads it only at its start",
@@ -288,6 +290,7 @@ _ROS1 = {
     "latched": "latched",
     "volatile": "without latching",
 }
+_POSES = {**_ROS2, "find_unset": "set the times of these rows in the file, or remove the rows"}
 _BOTH = {name: f"{text} (ROS 1: {_ROS1[name]})" for name, text in _ROS2.items()}
 
 
@@ -297,7 +300,9 @@ def is_ros1(evidence: Evidence) -> bool:
 
 
 def ros_words(evidence: Evidence) -> Mapping[str, str]:
-    """Return the commands and settings of ROS 1 or ROS 2, by placeholder; ROS 2 if unknown."""
+    """Return the words of a pose file, of ROS 1 or of ROS 2, by placeholder; ROS 2 if unknown."""
+    if evidence.kind.startswith("poses"):
+        return _POSES
     return _ROS1 if is_ros1(evidence) else _ROS2
 
 

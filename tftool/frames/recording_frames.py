@@ -19,6 +19,7 @@ def recording_notes(recording: Recording) -> list[str]:
     """Return sentences about damage, unusual transforms and added frames of a recording."""
     return [
         *recording.damage,
+        *recording.source.oddities,
         *odometry_notes(recording),
         *_described_notes(recording.described),
         *(f"{text} ({times} times)." for text, times in recording.oddities.items()),

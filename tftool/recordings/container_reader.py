@@ -120,6 +120,11 @@ class Recorded:
         """Return sentences about damage of the files."""
         return (*self._container.damage, *self._notes)
 
+    @property
+    def oddities(self) -> list[str]:
+        """Return sentences about unusual rows that are used; only pose files have such rows."""
+        return list(getattr(self._container, "oddities", ()))
+
     def _note(self, damage: str) -> None:
         if damage not in self._notes:
             self._notes.append(damage)

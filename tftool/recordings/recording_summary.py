@@ -131,7 +131,8 @@ def oddities(
         edges: Statistics of the edges.
         forest: Root and size of every tree.
     """
-    found = [
+    found = [*recording.source.oddities]
+    found += [
         f"{text}." if count == 1 else f"{text} ({count} times)."
         for text, count in recording.oddities.items()
     ]

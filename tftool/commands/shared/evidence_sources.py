@@ -81,6 +81,8 @@ def evidence_from(
         connection, word, lasting, until=WHOLE, tells=False, watch=watch, look=glance
     ) as frames:
         evidence = evidence_of_frames(frames, scope)
+    for text in () if frames.recording is None else frames.recording.source.oddities:
+        notice(visible(text))
     return evidence if heard is None else replace(evidence, headers=heard.headers())
 
 

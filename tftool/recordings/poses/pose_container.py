@@ -7,6 +7,7 @@ from typing import Final
 import numpy as np
 
 from tftool.base.errors import InputError
+from tftool.base.plain_text import count
 from tftool.base.stamps import NANOSECONDS
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry import rigid_arrays as batch
@@ -41,6 +42,7 @@ class PoseContainer:
         file = PoseFile(path, options, (form.parent, form.child))
         links = form.read(file)
         self.damage: list[str] = []
+        self.oddities: list[str] = []
         self.size = path.stat().st_size
         self.kind = f"poses ({form.name})"
         self.channels: list[Channel] = []
@@ -52,10 +54,10 @@ class PoseContainer:
             number = self._channel(static=link.static)
             when = np.full_like(stamps, start) if link.static else stamps
             parts.append((number, when, _messages(link, options.prefix, when, poses)))
-        self.damage += [
-            f"{path.name}: {count} {'row' if count == 1 else 'rows'} {what}."
-            for what, count in file.oddities.items()
-        ]
+        for what, number in file.oddities.items():
+            # Only rows that are left out are missing from the poses.
+            sentences = self.damage if what.endswith("left out") else self.oddities
+            sentences.append(f"{path.name}: {count(number, 'row')} {what}.")
         if not any(len(when) for _, when, _ in parts):
             raise InputError(f"'{path}' has no poses. {' '.join(self.damage)}".rstrip())
         self._batch = _joined(parts)
