@@ -11,6 +11,7 @@ pytest.importorskip("mcap", reason="writes the test files")
 from tests.full_disk import full_disk
 from tests.recordings.edit.outcomes import NEW_POSE, SENT, messages
 from tests.recordings.writers import CONTAINERS, write_mcap
+from tftool import Buffer, Transform, TransformStamped, export
 from tftool.base.errors import InputError, UsageError
 from tftool.recordings.edit.changes import Edits
 from tftool.recordings.edit.rewrite import edit
@@ -70,6 +71,22 @@ def test_what_is_not_in_the_recording_is_refused_with_what_is(tmp_path, mcap, ed
         edit([str(mcap)], tmp_path / "out.mcap", edits)
 
     assert sorted(os.listdir(tmp_path)) == ["a.mcap"]
+
+
+@pytest.mark.parametrize("name", ["out.mcap", "out.db3", "out.bag"])
+def test_a_shift_after_which_a_stamp_is_not_above_0_is_refused(tmp_path, name):
+    buffer = Buffer()
+    for second in (10, 11):
+        buffer.set_transform(TransformStamped(second * 10**9, "map", "base", Transform()), "test")
+    export(buffer, path=tmp_path / "a.mcap")
+    path = str(tmp_path / "a.mcap")
+
+    for shift, told in ((-10, "stamp 10 s to 0 s"), (-11, "to -1 s"), (2**31 - 11, "2147483648 s")):
+        with pytest.raises(InputError, match=told):
+            edit([path], tmp_path / name, Edits(shift=shift * 10**9))
+
+    assert sorted(os.listdir(tmp_path)) == ["a.mcap"]
+    assert edit([path], tmp_path / name, Edits(shift=-9 * 10**9)).counts["stamps changed"] == 2
 
 
 def test_of_a_recording_without_transforms_it_is_said_that_there_are_none(tmp_path):

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tftool.base.errors import InputError, TftoolError
-from tftool.base.stamps import NANOSECONDS, Duration, Stamp
+from tftool.base.stamps import NANOSECONDS, Duration, Stamp, as_seconds
 from tftool.buffer.forest import stripped
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
@@ -34,6 +34,9 @@ LinkName = tuple[str, str]
 """Names of parent and child, each without a leading slash; "*" means any name."""
 
 _HEADER: Final = "std_msgs/msg/Header"
+
+_STAMPS_END: Final = 2**31 * NANOSECONDS
+"""End of the stamps that ROS 2 can store, whose seconds have 32 bits with a sign."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,10 +109,22 @@ class Edits:
         return plain if self.strip_slash else slash + plain
 
     def stamp(self, stamp: Stamp, log_time: Stamp) -> Stamp:
-        """Return the new value of a stamp; --shift leaves 0 ("no stamp") unchanged."""
-        if self.restamp:
-            return log_time + self.shift
-        return stamp + self.shift if stamp else stamp
+        """Return the new value of a stamp; --shift leaves 0 ("no stamp") unchanged.
+
+        Raises:
+            InputError: If --shift makes a stamp that ROS cannot store, or 0.
+        """
+        old = log_time if self.restamp else stamp
+        if not self.shift or not old:
+            return old
+        new = old + self.shift
+        if not 0 < new < _STAMPS_END:
+            raise InputError(
+                f"--shift {as_seconds(self.shift):.10g} would change the stamp "
+                f"{as_seconds(old):.10g} s to {as_seconds(new):.10g} s: choose a shift after which "
+                "all stamps are above 0 and below 2^31 s."
+            )
+        return new
 
 
 def fits(link: LinkName, pattern: LinkName) -> bool:
