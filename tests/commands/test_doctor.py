@@ -257,3 +257,20 @@ def test_a_stamp_0_in_a_pose_file_is_fixed_in_the_file(tftool, tmp_path):
 
     assert "warning  zero-stamp" in result.out
     assert "ros2 topic" not in result.out
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (["--select", "gap", "--ignore", "gap"], "--ignore leaves out every check"),
+        (["--select", "gap,edge-stopped", "--ignore", "coverage"], "leaves out every check"),
+        (["--list", "--json"], "--list prints text: leave out --json."),
+        (["--explain", "gap", "--json"], "--explain prints text: leave out --json."),
+        (["--explain", "gap", "--markdown"], "--explain prints text: leave out --markdown."),
+    ],
+)
+def test_options_without_effect_are_refused(tftool, options, told):
+    result = tftool("doctor", "turtles", *options)
+
+    assert (result.status, result.out) == (2, "")
+    assert told in result.err

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 import numpy.typing as npt
 
-from tftool.base.errors import DescriptionError, InputError, without_frames
+from tftool.base.errors import DescriptionError, InputError, UsageError, without_frames
 from tftool.base.stamps import Stamp, as_seconds, seconds
 from tftool.buffer.buffer import Buffer
 from tftool.doctor.stamp_stream import last_part
@@ -211,6 +211,8 @@ def evidence_of_recording(recording: "Recording", scope: Scope | None = None) ->
         return evidence
     begin = evidence.start if scope.begin is None else scope.begin.stamp(evidence.start)
     end = evidence.end if scope.end is None else scope.end.stamp(evidence.start)
+    if begin > end and scope.begin is not None and scope.end is not None:
+        raise UsageError("--to is before --from: exchange the two times.")
     if begin > evidence.end or end < evidence.start or begin >= end:
         length = as_seconds(evidence.end - evidence.start)
         raise InputError(

@@ -109,8 +109,8 @@ def judge(
     if evidence.is_generated:
         evidence = replace(evidence, timed=False)
     limits = {name: _limits(check, settings) for name, check in CHECKS.items()}
-    chosen = _named(select) if select else list(CHECKS)
-    left_out = set(_named(ignore))
+    chosen = checks_named(select) if select else list(CHECKS)
+    left_out = set(checks_named(ignore))
     model = Model(evidence, settings)
     hits: list[tuple[Check, Hit]] = []
     skipped = []
@@ -180,7 +180,7 @@ def _has(evidence: Evidence, need: str) -> bool:
     return any(publisher.durability for publisher in evidence.publishers)
 
 
-def _named(words: Sequence[str]) -> list[str]:
+def checks_named(words: Sequence[str]) -> list[str]:
     """Return the ids of the selected checks; each word is a check's id or an area.
 
     Raises:
@@ -221,8 +221,8 @@ def refuse_unknown(settings: Settings, select: Sequence[str], ignore: Sequence[s
     Raises:
         UsageError: If a check, an area or a threshold is unknown.
     """
-    _named(select)
-    _named(ignore)
+    checks_named(select)
+    checks_named(ignore)
     for name, given in settings.limits.items():
         if name not in CHECKS:
             raise UsageError(unknown(name, list(CHECKS), "check"))

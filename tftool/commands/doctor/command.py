@@ -24,7 +24,7 @@ from tftool.commands.shared.pairs import pairs_and_place
 from tftool.commands.shared.printer import line_width, write, write_file, write_json
 from tftool.doctor.evidence import Evidence, Scope, described_by
 from tftool.doctor.findings import Severity, fingerprint
-from tftool.doctor.judge import CHECKS, Diagnosis, judge, refuse_unknown, unknown
+from tftool.doctor.judge import CHECKS, Diagnosis, checks_named, judge, refuse_unknown, unknown
 from tftool.doctor.localisation_steps import steps_of
 from tftool.doctor.measured_mounts import MeasuredMount, measured_mounts
 from tftool.doctor.model import Model, Settings
@@ -98,9 +98,9 @@ def _no_report(path: Path, what: str) -> InputError:
 
 def run(connection: Connection, options: DoctorOptions) -> ExitStatus:
     """Run `tftool doctor`: print or write the findings, and return the exit status."""
+    _refuse_contradictions(options)
     if options.listed or options.explain:
         return _show_checks("" if options.listed else options.explain, markdown=options.markdown)
-    _refuse_contradictions(options)
     task = _examination(connection, options)
     fails = None if options.fail_on is FailOn.never else Severity(options.fail_on.value)
     if options.steps:
@@ -208,10 +208,20 @@ def _refuse_contradictions(options: DoctorOptions) -> None:
     }
     others = " and ".join(name for name, given in asked.items() if given)
     makes_rows = options.output is not None
+    selected = checks_named(_words(options.select)) or list(CHECKS)
+    only_tells = "--list" if options.listed else "--explain" if options.explain else ""
     refuse(
         (
             options.for_programs and options.markdown,
             "--json and --markdown are two output formats: leave one out.",
+        ),
+        (
+            only_tells and (options.for_programs or (options.explain and options.markdown)),
+            f"{only_tells} prints text: leave out {others}.",
+        ),
+        (
+            set(selected) <= set(checks_named(_words(options.ignore))),
+            "--ignore leaves out every check that would run: change --ignore or --select.",
         ),
         (makes_rows and others, f"-o writes rows instead of a report: leave out {others}."),
         (
