@@ -143,6 +143,46 @@ def test_what_cannot_be_done_is_said_in_a_sentence_and_leaves_nothing(
     assert (run / "a.mcap").read_bytes() == before
 
 
+SET = ["--set", "base_link:laser=1,2,3,0,0,0"]
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (
+            [*SET, "--set", "/base_link:laser=4,5,6,0,0,0"],
+            "--set is given twice for base_link:laser",
+        ),
+        (["--rename", "laser=a", "--rename", "laser=b"], "--rename is given twice for laser,"),
+        (["--prefix", "r1/", "--prefix", "r2/"], "--prefix is given twice for every frame"),
+        (
+            ["--reparent", "base_link:arm=odom", "--reparent", "base_link:arm=map"],
+            "--reparent is given twice for base_link:arm",
+        ),
+        ([*SET, "--drop", "*:laser"], "--drop removes base_link:laser, which --set"),
+        (
+            ["--drop", "base_link:arm", "--reparent", "base_link:arm=odom"],
+            "--drop removes base_link:arm, which --set or --reparent",
+        ),
+        (
+            [*SET, "--statics-from", "a.mcap"],
+            "--statics-from replaces base_link:laser, which --set",
+        ),
+    ],
+)
+def test_options_that_contradict_each_other_are_refused(run, capsys, words, told):
+    assert main(["edit", "a.mcap", "-o", "b.mcap", *words]) == 2
+
+    assert told in capsys.readouterr().err
+    assert os.listdir() == ["a.mcap"]
+
+
+def test_options_that_do_not_contradict_each_other_are_accepted(run, capsys):
+    words = [*SET, *SET, "--drop", "base_link:arm", "--set", "*:arm=1,2,3,0,0,0"]
+
+    assert main(["edit", "a.mcap", "-o", "b.mcap", *words]) == 0
+
+
 @pytest.mark.parametrize("others", [[], ["none.mcap"]])
 @pytest.mark.parametrize(
     ("words", "told"),

@@ -81,7 +81,7 @@ class EditOptions(Command, shares=False, poses=True):
     rename: list[str] | None = option(
         "Rename a frame. Repeat the option for more frames.", metavar="OLD=NEW", panel=NAMES
     )
-    prefix: str | None = option(
+    prefix: list[str] | None = option(
         "Put this prefix before the name of every frame.", metavar="r1/", panel=NAMES
     )
     strip_slash: bool = flag(

@@ -2,6 +2,8 @@
 
 import math
 import sys
+from collections import Counter
+from collections.abc import Sequence
 from pathlib import Path
 
 from tftool.base.errors import UsageError
@@ -11,13 +13,14 @@ from tftool.buffer.forest import stripped
 from tftool.buffer.sample import TransformStamped
 from tftool.commands.edit import EditOptions
 from tftool.commands.shared.notices import notice
+from tftool.commands.shared.options import refuse
 from tftool.commands.shared.printer import write_json
 from tftool.commands.shared.progress_bars import Bar, interruptible
 from tftool.frames.source_options import At
 from tftool.geometry.conversions import quaternion_from_rpy
 from tftool.geometry.rigid import Transform
 from tftool.messages.transform_rows import LONGEST_NAME
-from tftool.recordings.edit.changes import Edits, LinkName
+from tftool.recordings.edit.changes import Edits, LinkName, fits
 from tftool.recordings.edit.rewrite import EditReport
 from tftool.recordings.edit.rewrite import edit as rewrite
 from tftool.recordings.find import Kind, find
@@ -143,6 +146,12 @@ def _reparented(text: str) -> "tuple[LinkName, str]":
     return link, stripped(new)
 
 
+def _repeated(pairs: Sequence[tuple[str, object]]) -> str:
+    """Return the first name that has two different values; "" if there is none."""
+    counts = Counter(name for name, _ in dict.fromkeys(pairs))
+    return next((name for name, count in counts.items() if count > 1), "")
+
+
 def _statics(name: str) -> "tuple[TransformStamped, ...]":
     """Return the static transforms of a robot description or a recording.
 
@@ -181,15 +190,47 @@ def run(options: EditOptions) -> ExitStatus:
     low, high = _moments(
         options.names, options.start, options.end, by_record_time=options.by_record_time
     )
+    drop = tuple(_link("--drop", text) for text in options.drop or ())
+    rename = [_renamed(text) for text in options.rename or ()]
+    prefixes = [_prefix(text) for text in options.prefix or ()]
+    poses = [_pose(text) for text in options.poses or ()]
+    reparent = [_reparented(text) for text in options.reparent or ()]
+    statics = _statics(options.statics_from) if options.statics_from is not None else ()
+    changed = dict.fromkeys(link for link, _ in (*poses, *reparent))
+    dropped = [":".join(link) for link in changed if any(fits(link, one) for one in drop)]
+    children = {stripped(one.child_frame_id) for one in statics}
+    replaced = [":".join(link) for link in changed if link[1] in children]
+    repeated = {
+        "--rename": _repeated(rename),
+        "--prefix": _repeated([("every frame", one) for one in prefixes]),
+        "--set": _repeated([(":".join(link), pose) for link, pose in poses]),
+        "--reparent": _repeated([(":".join(link), parent) for link, parent in reparent]),
+    }
+    refuse(
+        *(
+            (name, f"{option} is given twice for {name}, with different values: leave one out.")
+            for option, name in repeated.items()
+        ),
+        (
+            dropped,
+            f"--drop removes {', '.join(dropped)}, which --set or --reparent changes: leave one "
+            "out.",
+        ),
+        (
+            replaced,
+            f"--statics-from replaces {', '.join(replaced)}, which --set or --reparent changes: "
+            "leave one out.",
+        ),
+    )
     edits: Edits = Edits(
-        drop=tuple(_link("--drop", text) for text in options.drop or ()),
-        rename=dict(_renamed(text) for text in options.rename or ()),
-        prefix=_prefix(options.prefix) if options.prefix is not None else "",
+        drop=drop,
+        rename=dict(rename),
+        prefix="".join(prefixes[:1]),
         strip_slash=options.strip_slash,
-        poses=dict(_pose(text) for text in options.poses or ()),
-        reparent=dict(_reparented(text) for text in options.reparent or ()),
+        poses=dict(poses),
+        reparent=dict(reparent),
         statics_first=options.statics_first,
-        statics_from=_statics(options.statics_from) if options.statics_from is not None else (),
+        statics_from=statics,
         start=low,
         end=high,
         by_record_time=options.by_record_time,
