@@ -443,6 +443,30 @@ def test_ctrl_c_runs_destroy_node_and_ends_the_command_as_interrupted(tmp_path):
     assert "Traceback" not in rest
 
 
+@pytest.mark.parametrize(
+    "wait",
+    [
+        "thread.join(timeout=60)",
+        "over.wait(60)",
+        "[time.sleep(0.1) for _ in range(600) if thread.is_alive()]",
+    ],
+)
+def test_a_program_can_wait_for_its_thread_after_ctrl_c(tmp_path, wait):
+    file = tmp_path / "waits.py"
+    file.write_text(
+        "import threading, time\nimport rclpy\n"
+        "def spin():\n    try:\n        rclpy.spin(node)\n    finally:\n        over.set()\n"
+        "over = threading.Event()\nrclpy.init()\nnode = rclpy.create_node('waits')\n"
+        "thread = threading.Thread(target=spin, daemon=True)\nthread.start()\n"
+        "node.get_logger().info('ready')\n"
+        "try:\n    time.sleep(100)\nexcept KeyboardInterrupt:\n    rclpy.try_shutdown()\n"
+        f"{wait}\nnode.get_logger().info(f'spun to the end: {{over.is_set()}}')\n"
+    )
+    _, rest = interrupted(tmp_path, "[waits]: ready", "run", "--host", str(file))
+
+    assert "spun to the end: True" in rest
+
+
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_the_first_signal_ends_an_endless_loop_on_simulated_time_too(tmp_path, number):
     file = tmp_path / "endless.py"

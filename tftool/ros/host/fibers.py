@@ -112,6 +112,7 @@ class Fiber:
         name: Name of the program whose code the fiber runs.
         interrupted: Whether the fiber was asked to end. Each wait of the code then raises
             KeyboardInterrupt.
+        is_told: Whether a wait of the interrupted code has raised this exception.
         error: Exception that ended the code; None if there was none. A StuckError means that tftool
             stopped code that was still running at the end of the run.
         ended: Whether the code has ended.
@@ -146,7 +147,7 @@ class Fiber:
                 the event loop itself would notice a signal only after the code has paused.
         """
         self.name = name
-        self.interrupted = False
+        self.interrupted = self.is_told = False
         self.error: BaseException | None = None
         self.ended = False
         self.owner: Any = None
@@ -290,7 +291,7 @@ class Fiber:
                     value = await value
                 answer = (value, None)
             except asyncio.CancelledError:
-                self.interrupted = True
+                self.interrupted = self.is_told = True
                 answer = (None, self.end())
             except Exception as error:
                 answer = (None, error)
@@ -379,7 +380,7 @@ class Fiber:
         Code that still does not stop is abandoned.
         """
         if not self.interrupted:
-            self.interrupted = True
+            self.interrupted = self.is_told = True
             self._raise_in_thread(KeyboardInterrupt)
         if not self._rest.acquire(timeout=GRACE * 4):
             self._leave_alone()
@@ -401,6 +402,7 @@ class Fiber:
                         f"'{self.name}' did not end with the run and was stopped: "
                         f"{self.place() or 'no line of yours is running'}"
                     )
+                self.is_told = True
                 self._raise_in_thread(KeyboardInterrupt)
             arrived = loop.create_future()
             self._arrived = (loop, arrived)

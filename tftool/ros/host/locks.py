@@ -274,7 +274,10 @@ class UserEvent(threading.Event):
     def wait(self, timeout: float | None = None) -> bool:
         """Block until the event is set; return False if the timeout passes first."""
         owner = running_program()
-        return self.is_set() if owner is not None and owner.interrupted else super().wait(timeout)
+        if owner is None or not owner.is_told:
+            return super().wait(timeout)
+        owner.wait_after_end(self.is_set, None if timeout is None else seconds(timeout))
+        return self.is_set()
 
 
 class UserBarrier(threading.Barrier):

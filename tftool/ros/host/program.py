@@ -47,6 +47,10 @@ LONGEST_TICK = 64 * TICK
 """Longest tick, in nanoseconds."""
 
 
+PART = 0.01
+"""Longest single sleep, in real seconds, of a program that was asked to end."""
+
+
 _living: "set[Program]" = set()
 """Programs that are running, in all worlds of this process."""
 
@@ -149,6 +153,12 @@ class Program(Node):
     def interrupted(self) -> bool:
         """Whether the program was asked to end."""
         return self.fiber.interrupted
+
+    @property
+    def is_told(self) -> bool:
+        """Whether a wait of the calling thread has already raised KeyboardInterrupt."""
+        fiber = fibers.current()
+        return self.interrupted if fiber is None else fiber.is_told
 
     @property
     def turn(self) -> Phase:
@@ -321,11 +331,31 @@ class Program(Node):
     def sleep(self, duration: Duration) -> None:
         """Block the calling thread for `duration` nanoseconds of tftool's clock.
 
-        Return at once if the program was asked to end.
+        Raises:
+            KeyboardInterrupt: If the program is asked to end. Later calls block in real time.
         """
-        if self.interrupted:
+        if self.is_told:
+            self.wait_after_end(lambda: False, duration)
             return
         self.ask(partial(self.clock.sleep, max(0, duration), self.turn, self.rank))
+
+    def wait_after_end(self, is_over: Callable[[], bool], duration: Duration | None) -> None:
+        """Block the calling thread, which knows that the program must end, in real time.
+
+        On simulated time, which has ended, return at once.
+
+        Args:
+            is_over: Function called every few milliseconds; True ends the wait.
+            duration: Longest wait in nanoseconds; None for `GRACE_AT_END`.
+        """
+        if fibers.current() is not None:
+            # The loop notices that the code pauses, and limits how often the code may do so.
+            self.ask(lambda: None)
+        limit = seconds(fibers.GRACE_AT_END) if duration is None else duration
+        end = time.monotonic_ns() + limit  # real time, as the world's clock may be paused
+        # In short parts, so that an exception can be raised in this thread.
+        while not (self.strict or is_over()) and (left := end - time.monotonic_ns()) > 0:
+            time.sleep(min(left / NANOSECONDS, PART))  # noqa: TID251
 
     async def first_of(
         self,

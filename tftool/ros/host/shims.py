@@ -115,10 +115,12 @@ class UserThread(threading.Thread):
         if self._fiber is None:
             super().join(timeout)
             return
-        if self._owner.interrupted:
+        owner, fiber = self._owner, self._fiber
+        length = None if timeout is None else seconds(max(0.0, timeout))
+        if owner.is_told:
+            owner.wait_after_end(lambda: fiber.ended, length)
             return
-        owner = self._owner
-        end = None if timeout is None else owner.clock.now() + seconds(max(0.0, timeout))
+        end = None if length is None else owner.clock.now() + length
         owner.ask(lambda: owner.first_of(self._task, until=end))
 
     def is_alive(self) -> bool:
