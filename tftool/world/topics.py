@@ -4,7 +4,6 @@ Delivery is direct: `publish` calls every subscriber, in order of subscription, 
 """
 
 import asyncio
-import itertools
 from collections import deque
 from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
 from dataclasses import dataclass
@@ -161,14 +160,6 @@ class GoalResult:
     value: Any
 
 
-_NUMBERS = itertools.count(1)
-
-
-def new_goal_id() -> bytes:
-    """Return a goal id of 16 bytes from a counter, so that equal runs use equal ids."""
-    return next(_NUMBERS).to_bytes(16, "big")
-
-
 class GoalHandle:
     """Goal of an action, shared by its client and its server.
 
@@ -191,10 +182,10 @@ class GoalHandle:
         request: Any,
         on_feedback: Callable[[Any], object] | None = None,
         patience: float | None = None,
-        goal_id: bytes | None = None,
+        goal_id: bytes = bytes(16),
     ) -> None:
         self.request = request
-        self.goal_id = goal_id or new_goal_id()
+        self.goal_id = goal_id
         self.feeds = [] if on_feedback is None else [on_feedback]
         self.cancel_requested = False
         self.feedback: Any = None

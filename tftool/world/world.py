@@ -2,6 +2,8 @@
 
 import asyncio
 import inspect
+import itertools
+import secrets
 from collections import deque
 from collections.abc import Callable, Coroutine, Iterable, Mapping
 from types import MappingProxyType
@@ -14,7 +16,7 @@ from tftool.buffer.callbacks import Listeners, listener_text
 from tftool.buffer.sample import TransformStamped
 from tftool.messages.classes import interface_name, is_part
 from tftool.world import transform_wait as waiting
-from tftool.world.clock import Clock, run
+from tftool.world.clock import Clock, SimClock, run
 from tftool.world.endpoints import (
     PUBLISHER,
     SUBSCRIPTION,
@@ -138,6 +140,7 @@ class World:
         self._services: NamedOffers[Handler] = NamedOffers("service", self._changed)
         self._deferred: list[tuple[Resident, Callable[[], object]]] = []
         self._actions: NamedOffers[Acceptor] = NamedOffers("action", self._changed)
+        self._goal_numbers = itertools.count(1)
         self._goal_watchers: dict[str, Listeners[GoalHandle]] = {}
         # Errors of the buffer that repeat, by the code at the beginning of the text.
         self._refused: dict[str, Repeats] = {}
@@ -411,6 +414,15 @@ class World:
         """
         return self._goal_watchers.setdefault(name, Listeners(self.report)).add(callback, owner)
 
+    def new_goal_id(self) -> bytes:
+        """Return a goal id of 16 bytes: random, as the goals of all processes need different ids.
+
+        On simulated time, which no other process shares, equal runs use equal ids.
+        """
+        if isinstance(self.clock, SimClock):
+            return next(self._goal_numbers).to_bytes(16, "big")
+        return secrets.token_bytes(16)
+
     def send_goal(
         self,
         name: str,
@@ -437,7 +449,7 @@ class World:
             raise TftoolError(f"no node serves the action '{name}'")
         if offer.kind is not None:
             _require(goal, "Goal", offer.kind, f"action '{name}'")
-        handle = GoalHandle(goal, on_feedback, patience, goal_id)
+        handle = GoalHandle(goal, on_feedback, patience, goal_id or self.new_goal_id())
         if name in self._goal_watchers:
             self._goal_watchers[name].call(handle)
         offer.take(handle)

@@ -122,6 +122,7 @@ def test_a_goal_travels_with_its_feedback_and_its_end():
             await until(lambda: rotation.goals)
             (served,) = rotation.goals
             assert served.request == build(RotateAbsolute.Goal, 1.5)
+            assert served.goal_id == goal.goal_id
             served.publish_feedback(build(RotateAbsolute.Feedback, 0.5))
             await until(lambda: feedback)
             served.finish("succeeded", build(RotateAbsolute.Result, -1.5))
@@ -132,6 +133,31 @@ def test_a_goal_travels_with_its_feedback_and_its_end():
                 "succeeded",
                 build(RotateAbsolute.Result, -1.5),
             )
+
+    play(turn())
+
+
+def test_the_services_of_an_action_can_be_called_from_another_process():
+    parts = RotateAbsolute.Impl
+    names = {f"turtle1/rotate_absolute/_action/{part}" for part in ("send_goal", "cancel_goal")}
+
+    async def turn():
+        async with Two() as two:
+            rotation = Rotation(two.here)
+            await until(lambda: names <= two.there.services().keys())
+            goal_id = INTERFACES.message("unique_identifier_msgs/UUID")(uuid=[7] * 16)
+            sent = parts.SendGoalService.Request(
+                goal_id=goal_id, goal=build(RotateAbsolute.Goal, 1.5)
+            )
+            answer = await two.there.call("turtle1/rotate_absolute/_action/send_goal", sent)
+            every = parts.CancelGoalService.Request()
+            ended = await two.there.call("turtle1/rotate_absolute/_action/cancel_goal", every)
+
+            assert answer.accepted
+            assert rotation.goals[0].request == build(RotateAbsolute.Goal, 1.5)
+            assert [one.goal_id for one in ended.goals_canceling] == [goal_id]
+            two.host.close()
+            await until(lambda: not names & two.there.services().keys())
 
     play(turn())
 

@@ -14,7 +14,6 @@ from tftool.ros.rclpy.futures import Future
 from tftool.ros.rclpy.node_state import state_of
 from tftool.world.action_parts import ENDED, goal_id_message
 from tftool.world.topics import GoalHandle as WorldGoal
-from tftool.world.topics import new_goal_id
 
 
 class GoalStatus(IntEnum):
@@ -119,7 +118,7 @@ class ActionClient(Requester):
         """
         if not isinstance(goal, self.type_.Goal):
             raise TypeError(f"Expected {self.type_.Goal}, got {type(goal)}")
-        goal_id = goal_uuid or goal_id_message(new_goal_id())
+        goal_id = goal_uuid or goal_id_message(self.node_state.world.new_goal_id())
         copy = duplicate(goal)
 
         def on_feedback(value: Any) -> None:

@@ -1,8 +1,8 @@
 """Services and actions that a world and other processes offer to each other."""
 
 import asyncio
-import secrets
 from collections.abc import Awaitable, Callable, Coroutine
+from functools import partial
 from typing import Any, Final, cast
 
 from tftool.base.errors import LinkError, MalformedMessage, TftoolError
@@ -122,20 +122,25 @@ class ServiceClient:
     """Service of another process, made available to the nodes of this process's world."""
 
     def __init__(self, link: LinkContext, name: str, server: GraphEntity) -> None:
-        self._kind = INTERFACES.find(*server.ros_type.split("/"))
+        kind = INTERFACES.find(*server.ros_type.split("/"))
         self._asking = Asking(link, name, server.ros_type)
-        self._withdraw = link.world.serve(
-            name, self._call, self._kind, node=server.node, is_remote=True
-        )
+        call = _caller(self._asking, kind)
+        self._withdraw = link.world.serve(name, call, kind, node=server.node, is_remote=True)
 
     def close(self) -> None:
         """Remove the service of the other process from this world."""
         self._withdraw()
         self._asking.close()
 
-    async def _call(self, request: Any) -> Any:
-        payload = codec(self._kind.Request).encode(request)
-        return codec(self._kind.Response).decode(await self._asking.ask(payload, LONGEST))
+
+def _caller(asking: Asking, kind: Any) -> Callable[[Any], Coroutine[Any, Any, Any]]:
+    """Return a function that calls a service of another process with a request of `kind`."""
+
+    async def call(request: Any) -> Any:
+        payload = codec(kind.Request).encode(request)
+        return codec(kind.Response).decode(await asking.ask(payload, LONGEST))
+
+    return call
 
 
 _NAMES: Final = {number: name for name, number in ENDED.items()}
@@ -211,35 +216,40 @@ class ActionClient:
         self._tasks = Tasks()
         base = f"{name}/_action"
 
-        def part(what: str, ros_type: str) -> Asking:
-            return Asking(link, f"{base}/{what}", ros_type)
+        kind = INTERFACES.find(*self._type.split("/"))
+        serve = partial(link.world.serve, node=server.node, is_remote=True, shares=True)
 
-        self._send = part("send_goal", f"{self._type}_SendGoal")
-        self._cancel = part("cancel_goal", CANCEL_GOAL)
-        self._result = part("get_result", f"{self._type}_GetResult")
+        def part(what: str, service: Any) -> Asking:
+            asking = Asking(link, f"{base}/{what}", service.interface__)
+            # A program may also call the service itself, without an action client.
+            self._withdrawals.append(serve(f"{base}/{what}", _caller(asking, service), service))
+            return asking
+
+        self._withdrawals: list[Callable[[], None]] = []
+        self._send = part("send_goal", kind.Impl.SendGoalService)
+        self._cancel = part("cancel_goal", kind.Impl.CancelGoalService)
+        self._result = part("get_result", kind.Impl.GetResultService)
         feedback = f"{self._type}_FeedbackMessage"
         self._stop_feedback = link.middleware.listen(
             f"{base}/feedback", feedback, self._on_feedback
         )
-        self._withdraw = link.world.serve_action(
-            name,
-            self._accept,
-            INTERFACES.find(*self._type.split("/")),
-            node=server.node,
-            is_remote=True,
+        self._withdrawals.append(
+            link.world.serve_action(name, self._accept, kind, node=server.node, is_remote=True)
         )
 
     def close(self) -> None:
         """Remove the other process's action from this world; running goals end as aborted."""
-        self._withdraw()
+        for withdraw in self._withdrawals:
+            withdraw()
         self._stop_feedback()
         self._tasks.cancel()
         for part in (self._send, self._cancel, self._result):
             part.close()
 
     def _accept(self, goal: GoalHandle) -> None:
-        goal_id = secrets.token_bytes(16)
-        self._goals[goal_id] = goal
+        goal_id = goal.goal_id
+        # A program may use an id twice; the server then refuses the second goal.
+        self._goals.setdefault(goal_id, goal)
         goal.decided = asyncio.get_running_loop().create_future()
         goal.on_cancel = lambda: self._tasks.start(self._call_off(goal_id, goal))
         self._tasks.start(self._follow(goal_id, goal, goal.decided))
@@ -270,7 +280,8 @@ class ActionClient:
         except (LinkError, MalformedMessage, AssertionError) as error:
             self._link.world.log.warn("link", f"{self._name}: {error}")
         finally:
-            self._goals.pop(goal_id, None)
+            if self._goals.get(goal_id) is goal:
+                del self._goals[goal_id]
             if not decided.done():
                 decided.set_result(False)
             goal.finish(status, result)
