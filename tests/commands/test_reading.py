@@ -169,3 +169,41 @@ def test_an_empty_name_is_neither_the_session_nor_the_current_folder(
 
     assert result.status == 3, (result.out, result.err)
     assert not (file.parent / "out.mcap").exists()
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["tree"],
+        ["explain", "world", "body"],
+        ["edit", "-o", "out.mcap"],
+        ["calibrate", "other.tum"],
+        ["calibrate", "--time-only", "other.tum"],
+    ],
+)
+def test_rows_of_a_pose_file_that_are_not_used_as_they_are_are_told(
+    tftool, tmp_path, monkeypatch, words
+):
+    monkeypatch.chdir(tmp_path)
+    good = "".join(f"{second} {second} 0 0 0 0 0 1\n" for second in range(1, 9))
+    (tmp_path / "other.tum").write_text(good)
+    odd = "9 nan 0 0 0 0 0 1\n9 0 0 0 0 0 0 0\n8 8 0 0 0 0 0 1\n"
+    (tmp_path / "poses.tum").write_text(good + "7 7 0 0 0 0 0 1\n" + odd)
+
+    told = tftool(*words, "poses.tum").err
+
+    assert "Reading 'poses.tum' as tum" in told
+    for sentence in (
+        "poses.tum: 1 row with NaN left out.",
+        "poses.tum: 1 row with a zero quaternion left out.",
+        "poses.tum: 1 row out of order, sorted.",
+        "poses.tum: 2 rows with the stamp of another row.",
+    ):
+        assert told.count(sentence) == 1
+
+
+@pytest.mark.parametrize("words", [["tree"], ["explain", "odom", "laser"], ["calibrate"]])
+def test_damage_of_a_recording_is_told(tftool, file, words):
+    file.write_bytes(file.read_bytes()[:-100])
+
+    assert "The recording was not closed." in tftool(*words, file).err

@@ -196,6 +196,7 @@ def run(options: CalibrateOptions) -> ExitStatus:
         open_frames(place, until=math.inf, no_cache=options.no_cache) for place in options.places
     ]
     try:
+        _tell_faults(opened)
         chains = _chains(opened, options.moving or [])
         paths = [_path(*chain) for chain in chains]
         if options.time_only:
@@ -241,6 +242,16 @@ def run(options: CalibrateOptions) -> ExitStatus:
         for sentence in write_mount(options.output, found, published, chosen, options.urdf):
             notice(visible(sentence))
     return ExitStatus.FAILED if is_outside else ExitStatus.DONE
+
+
+def _tell_faults(opened: list[Frames]) -> None:
+    """Print how each file is read, and which of its contents are damaged, sorted or left out."""
+    for frames in opened:
+        for text in () if frames.found is None else frames.found.notices():
+            notice(visible(text))
+        if frames.recording is not None:
+            for text in (*frames.recording.damage, *frames.recording.source.oddities):
+                notice(visible(text))
 
 
 def _refuse_outputs(

@@ -57,6 +57,8 @@ def run(connection: Connection, options: ExplainOptions) -> ExitStatus:
     evidence = evidence_from(
         connection, options.place, options.lasting, look=None if topic else look
     )
+    for text in evidence.damage:
+        notice(visible(text))
     model = Model(evidence, settings)
     stamp = LATEST if at is None else at.stamp(model.epoch)
     if topic:

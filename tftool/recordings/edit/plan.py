@@ -103,7 +103,9 @@ class EditedInput:
         folder = tempfile.TemporaryDirectory(prefix="tftool-")
         self._unpacked.append(folder)
         place = Path(folder.name) / "poses.mcap"
-        open_poses(found).write_mcap(place)
+        poses = open_poses(found)
+        self.notes += [*poses.damage, *poses.oddities]
+        poses.write_mcap(place)
         self.readers.append(open_reader(place, Kind.MCAP))
         self.paths.append(found.paths[0])
 
