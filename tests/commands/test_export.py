@@ -298,6 +298,7 @@ def test_moving_links_are_floating_joints_where_asked(tftool, run, buffer, tmp_p
     held = buffer.lookup_transform("odom", "base", START + 7_000_001).transform
     assert (robot.root, joint.type) == ("odom", "floating")
     assert joint.origin.translation == held.translation
+    assert "no pose in their parents: base" in tftool("tree", tmp_path / "robot.urdf").err
 
 
 def test_launch_files_are_played_by_launch(tftool, run, tmp_path):

@@ -101,6 +101,9 @@ def test_a_floating_joint_gives_no_frame():
     loose = Robot(parse_description(TEXT.replace('type="continuous"', 'type="floating"')))
 
     assert "boom" not in poses(loose, {})
+    (note,) = loose.notes
+    assert "floating joints are left out" in note
+    assert note.endswith("no pose in their parents: boom")
 
 
 @given(st.lists(st.tuples(st.floats(-10, 10), st.floats(-10, 10)), min_size=1, max_size=5))

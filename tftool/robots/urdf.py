@@ -235,6 +235,13 @@ class _Reader:
         if self.mistakes:
             ordered = sorted(self.mistakes, key=lambda one: (one.line, one.column))
             raise DescriptionError(self.name, ordered)
+        loose = [joint.child for joint in joints.values() if joint.type == "floating"]
+        if loose:
+            shown = ", ".join(loose[:3]) + (" …" if len(loose) > 3 else "")
+            self.notes.append(
+                "floating joints are left out, as by robot_state_publisher, so these links have no "
+                f"pose in their parents: {shown}"
+            )
         return RobotDescription(name, root, links, joints, tuple(self.notes), self.text)
 
     # XML
