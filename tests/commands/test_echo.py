@@ -83,6 +83,11 @@ def test_a_scenario_in_a_file_called_by_a_number_is_a_file(tftool, tmp_path, mon
         (["nosuch", "--once"], 3, "no scenario is named 'nosuch'"),
         (["turtels", "--once"], 3, "did you mean 'turtles'?"),
         (["turtles", "--at", "61"], 2, "lasts 60 s: the time 61 s is after its end."),
+        (
+            ["turtles", "--at", "1004"],
+            2,
+            "is after its end. Only numbers from 1e8 are stamps: for this stamp, write 4.",
+        ),
         (["turtles", "--at", "0.5"], 4, "extrapolation into the past"),
     ],
 )

@@ -24,6 +24,13 @@ class At:
         """Return the stamp of this time in a source whose first stamp is `epoch`."""
         return self.nanoseconds if self.is_stamp else epoch + self.nanoseconds
 
+    def meant(self, epoch: Stamp, end: Stamp) -> str:
+        """Return a sentence that begins with a space if the time was meant as a stamp, else ""."""
+        if self.is_stamp or not epoch <= self.nanoseconds <= end:
+            return ""
+        since = At(self.nanoseconds - epoch)
+        return f" Only numbers from 1e8 are stamps: for this stamp, write {str(since)[:-2]}."
+
     def __str__(self) -> str:
         whole, rest = divmod(self.nanoseconds, NANOSECONDS)
         digits = f"{whole}.{rest:09}".rstrip("0").rstrip(".")
@@ -50,6 +57,7 @@ def checked_moment(
         if at.is_stamp:
             end = At(epoch + duration, is_stamp=True)
             raise UsageError(f"{title} ends at {end}: the time {at} is after this end.")
+        meant = at.meant(epoch, epoch + duration)
         lasts = f"{title} lasts {as_seconds(duration):g} s"
         # Messages on other topics may continue long after the last transform.
         if received > duration + NANOSECONDS:
@@ -57,8 +65,8 @@ def checked_moment(
                 f"The transforms of {title} end at {as_seconds(duration):g} s (messages were "
                 f"received for {as_seconds(received):.1f} s)"
             )
-            raise UsageError(f"{lasts}: the time {at} is after the last transform.")
-        raise UsageError(f"{lasts}: the time {at} is after its end.")
+            raise UsageError(f"{lasts}: the time {at} is after the last transform.{meant}")
+        raise UsageError(f"{lasts}: the time {at} is after its end.{meant}")
     if stamp < epoch:
         raise UsageError(
             f"{title} begins at {At(epoch, is_stamp=True)}: the time {at} is before this start."

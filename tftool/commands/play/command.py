@@ -70,7 +70,10 @@ def _span(
     for asked, stamp in ((begin, first), (until, last)):
         if asked is not None and not low <= stamp <= high:
             lasts = f"{as_seconds(high - recording.start):g} s"
-            raise UsageError(f"The time {asked} is outside of the recording, which lasts {lasts}.")
+            meant = asked.meant(recording.start, high)
+            raise UsageError(
+                f"The time {asked} is outside of the recording, which lasts {lasts}.{meant}"
+            )
     if first > last:
         raise UsageError(f"--from {begin} is after --to {until}.")
     return first, last

@@ -186,10 +186,11 @@ def _span(frames: Frames, first: At | None, last: At | None) -> tuple[Stamp | No
     end = None if last is None else last.stamp(begin)
     if start is not None and end is not None and start > end:
         raise UsageError(f"--from {first} is after --to {last}.")
-    if start is not None and start > over:
+    if first is not None and first.stamp(begin) > over:
         lasts = as_seconds(over - begin)
         raise UsageError(
             f"{visible(frames.label)} lasts {lasts:g} s: --from {first} is after its end."
+            f"{first.meant(begin, over)}"
         )
     if end is not None and end < begin:
         begins = At(begin, is_stamp=True)
