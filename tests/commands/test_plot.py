@@ -247,6 +247,8 @@ def test_without_matplotlib_the_extra_is_named(tftool, run, tmp_path, monkeypatc
         (["map", "car", "RUN", "--only", "wobble"], 2, "cannot be plotted"),
         (["map", "car", "RUN", "--only", "x", "--xy"], 2, "leave one out"),
         (["map", "car", "RUN", "--dark"], 2, "-o FILE"),
+        (["map", "car", "RUN", "--window", "3"], 2, "--window is only allowed for a live plot"),
+        (["map", "car", "--window", "3", "-o", "a.svg"], 2, "--window is only allowed for a live"),
         (["map", "car", "RUN", "-o", "a.gif"], 2, ".svg, .pdf or .png"),
         (["map", "car", "RUN", "-o", "run.mcap"], 2, ".svg, .pdf or .png"),
         (["map", "nope", "RUN"], 4, "nope"),

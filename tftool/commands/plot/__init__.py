@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from tftool.base.stamps import Duration, seconds
+from tftool.base.stamps import Duration
 from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.options import (
     OUTPUT,
@@ -58,9 +58,7 @@ class PlotOptions(Command, looks_only=True, recordings=True):
     every: Every = None
     rate: Rate = None
     stamps_of: StampsOf = None
-    window: Duration = seconds_option(
-        "How far back a live plot reaches; 20 if not given.", default=seconds(20)
-    )
+    window: Duration | None = seconds_option("How far back a live plot reaches; 20 if not given.")
     lasting: RunFor = None
     ascii_only: Ascii = False
     light: Light = False

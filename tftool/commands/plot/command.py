@@ -103,6 +103,11 @@ def run(connection: Connection, options: PlotOptions) -> ExitStatus:
             "--json prints values over time, but --xy draws a path: leave one out.",
         ),
         (
+            options.window is not None and not is_live,
+            "--window is only allowed for a live plot on a terminal: leave it out, or use --from "
+            "and --to.",
+        ),
+        (
             is_live and (is_chosen(options) or options.first or options.last),
             "A live plot shows the time of --window up to now: leave out the other options of "
             "time, or name a FROM.",

@@ -101,12 +101,13 @@ class PlotSight:
 def plot_live(connection: Connection, options: PlotOptions, pairs: list[tuple[str, str]]) -> None:
     """Draw a session's plot until q is pressed or the command is stopped."""
     console = Console()
-    session = open_session(connection, None, cache_time=FARTHEST_BACK * options.window + seconds(1))
+    window = options.window or seconds(20)
+    session = open_session(connection, None, cache_time=FARTHEST_BACK * window + seconds(1))
     world = session.world
     world.clock.when_killed.add(leave_screen, "screen")
     start = min(world.clock.now(), world.clock.epoch) or world.clock.now()
 
-    sight = PlotSight(options.window)
+    sight = PlotSight(window)
     ascii_only = options.ascii_only or console.options.ascii_only
     look = Look(theme.LIGHT if options.light else theme.DARK, ascii_only)
     title = "tftool plot: " + ", ".join(visible(f"{of} in {to}") for to, of in pairs)
