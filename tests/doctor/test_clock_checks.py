@@ -234,6 +234,16 @@ def test_without_a_clock_stamps_near_1970_may_be_a_simulation_or_not():
     assert "use_sim_time: false" in found(made, "clock-mixture").fixes[0].text
 
 
+def test_objects_below_the_base_on_another_clock_are_no_real_device():
+    made = Robot(start=12.0, log_from=START)
+    made.moving("odom", "base_footprint")
+    for tick in range(100):
+        made.sent("base_link", "fruit", 0.08 * tick, stamp=seconds(START + 0.08 * tick))
+    (fix,) = found(made, "clock-mixture").fixes
+    assert "nothing needs to change" not in fix.text
+    assert "use_sim_time" in fix.text
+
+
 @pytest.mark.parametrize("is_described", [True, False])
 def test_wheels_on_another_clock_than_their_simulated_robot_are_no_real_device(is_described):
     made = Robot(start=12.0, log_from=START)

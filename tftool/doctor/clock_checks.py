@@ -11,7 +11,7 @@ from tftool.doctor.findings import Area, Confidence, Fact, Fix, Hit, Severity
 from tftool.doctor.missing_joins import own_trees
 from tftool.doctor.model import Limits, Model, Shift
 from tftool.doctor.stamp_checks import COMPARE_CLOCKS
-from tftool.doctor.stamp_stream import JOINT_STATES, Heard, Track
+from tftool.doctor.stamp_stream import BASES, JOINT_STATES, Heard, Track, last_part
 from tftool.doctor.wording import several, span
 from tftool.recordings.contract import percentile
 
@@ -91,10 +91,12 @@ def clock_mixture(model: Model, limits: Limits) -> Iterator[Hit]:
         if all(model.rests(one.frame) for one in harmless):
             so = "none while only static transforms, which hold at any time, place its frame"
     elif apart:
-        so = "none for lookups within each tree; nothing of one can be placed in the other"
+        so = "lookups within each tree succeed; nothing of one tree can be placed in the other"
         severity = Severity.WARNING
-        if not any(track.child in model.joint_above for track in tracks):
-            fix = Fix("a real device beside a simulated robot is right as it is")
+        if any(last_part(track.parent) in BASES for track in tracks):
+            pass  # the robot's own node sends them
+        elif not any(track.child in model.joint_above for track in tracks):
+            fix = Fix("if it is a real device beside a simulated robot, nothing needs to change")
         elif copied := [topic for topic in model.joint_topics if _are_copies(model, tracks, topic)]:
             # robot_state_publisher gives transforms the stamps of the joint states.
             words = model.words["sim_time_of"].format(setting=setting, edge=several(copied))

@@ -31,7 +31,7 @@ check = checks_of(Area.COVERAGE)
     "range, or if tf has no base frame. Not reported if the recording has no such topic and "
     "constants other than odometry are sent on /tf, as in early ROS 1",
     headline="no transform names {frames}: {why}",
-    detail="messages are in {frames}, which no transform names",
+    detail="in these frames: {used}",
     consequence="these messages cannot be placed",
     causes=(
         "robot_state_publisher was not started",
@@ -78,7 +78,11 @@ def static_missing(model: Model, limits: Limits) -> Iterator[Hit]:
         frames=tuple(names),
         topics=tuple(sorted({heard.topic for heard in unknown})),
         count=sum(len(heard.stamps) for heard in unknown),
-        facts={"frames": names, "why": why},
+        facts={
+            "frames": names,
+            "why": why,
+            "used": [f"{one.topic} ({count(len(one.stamps), 'message')})" for one in unknown],
+        },
         severity=None
         if static and has_base(model) and any(last_part(heard.type) in PLACED for heard in unknown)
         else Severity.WARNING,

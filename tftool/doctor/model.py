@@ -3,7 +3,7 @@
 The checks read this model. The module `evidence` reads the files.
 """
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -54,6 +54,9 @@ class Settings:
 
 _ONE_CLOCK = seconds(0.05)
 """Maximum difference between two delays of one clock, nanoseconds."""
+
+_FIXED = 3
+"""Number of constant transforms of robot_state_publisher from which fixed joints are among them."""
 
 _AHEAD = seconds(0.1)
 """Maximum time by which a static_transform_publisher of ROS 1 dates ahead: its usual period."""
@@ -212,14 +215,20 @@ class Model:
         """Whether one robot_state_publisher sends frames of several trees, without any statics.
 
         A robot description is one tree, so the fixed joints between these trees are missing. The
-        result is False if the fixed joints are on /tf, half a second ahead, as in early ROS 1.
+        result is False if the fixed joints are on /tf, as in early ROS 1: half a second ahead, or
+        several that never change.
         """
         roots: dict[str, set[str]] = defaultdict(set)
+        constant: Counter[str] = Counter()
         for track in () if self.statics else self.dynamic:
             if track.median_latency > -_AHEAD:
+                constant.update(track.nodes if not track.moves else ())
                 for node in track.nodes:
                     roots[node].add(self.tree_of[track.child].root)
-        return any("state_publisher" in node and len(roots[node]) > 1 for node in roots)
+        return any(
+            "state_publisher" in node and len(roots[node]) > 1 and constant[node] < _FIXED
+            for node in roots
+        )
 
     @cached_property
     def joint_topics(self) -> tuple[str, ...]:

@@ -13,7 +13,7 @@ from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
 from tftool.doctor.missing_joins import base_of, mount_command, proposed_join
 from tftool.doctor.model import Limits, Model, Tree
 from tftool.doctor.stamp_stream import PLACED, Heard, Track, last_part, overlap
-from tftool.doctor.wording import metres, several
+from tftool.doctor.wording import is_ros1, metres, several
 
 check = checks_of(Area.SHAPE)
 
@@ -191,15 +191,25 @@ def nothing_says(model: Model, root: str, mount: str = "") -> Fix:
         root: Name of the root frame.
         mount: Command that publishes the root as a sensor's mount; empty for other frames.
     """
-    is_cut = model.lacks_statics and model.evidence.recorded
+    # In ROS 1, constants on /tf may be the statics.
+    is_old = is_ros1(model.evidence)
+    is_cut = model.lacks_statics or not (model.statics or is_old)
+    is_cut &= model.evidence.recorded
     if is_cut and model.is_parted:
         return Fix(
             "robot_state_publisher sends frames of several trees, so the transforms that join them "
             f"are static, and not in the recording: {model.words['record']}"
         )
-    static = "; the statics are missing from the recording, and it may be one of them" * is_cut
+    if is_cut:
+        look = f"look whether the robot sends any: `{model.words['publishers']} /tf_static`"
+        measure = "; if nothing sends it, measure where it is, and publish it:" * bool(mount)
+        return Fix(
+            f"the recording has no static transforms, and one of them may join {root}: {look}; if "
+            f"so, {model.words['record']}{measure}",
+            mount,
+        )
     measure = "; if it is mounted on the robot, measure where, and publish it:" * bool(mount)
-    return Fix(f"nothing in the data says where to join {root}{static}{measure}", mount)
+    return Fix(f"nothing in the data says where to join {root}{measure}", mount)
 
 
 def _is_convention(tree: Tree, topics: Mapping[str, int]) -> bool:

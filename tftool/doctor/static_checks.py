@@ -1,7 +1,7 @@
 """Checks of static transforms: static and moving, changed, or constant although sent as moving."""
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -14,7 +14,7 @@ from tftool.doctor.missing_joins import ends_at_the_root
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.publisher_checks import by_child
 from tftool.doctor.stamp_stream import JOINT_STATES, Track, family, rate
-from tftool.doctor.wording import is_ros1, metres, span
+from tftool.doctor.wording import is_ros1, metres, several, span
 
 check = checks_of(Area.PUBLISHERS)
 
@@ -67,7 +67,7 @@ def static_and_dynamic(model: Model, limits: Limits) -> Iterator[Hit]:
                 "history": history,
                 "changes": _changes(model, len(turns), history),
                 "apart": _two_mounts(moving[child][0], statics[0]) if is_one_edge else "",
-                "so": _mixed_kinds(model, child),
+                "so": _mixed_kinds(model, child, tracks, len(turns)),
             },
             severity=Severity.WARNING if len(turns) < 2 or is_ros1(model.evidence) else None,
             fixes=(fix,),
@@ -82,7 +82,7 @@ def _two_mounts(track: Track, static: Track) -> str:
     poses = [one.translations[-1] for one in (track, static)]
     apart = float(np.linalg.norm(poses[0] - poses[1]))
     if apart <= _SAME_MOUNT:
-        return ""
+        return ", with equal translations"
     moving, fixed = (" ".join(f"{n:.4g}" for n in pose) for pose in poses)
     return f", with poses {metres(apart)} apart: moving {moving}, static {fixed}"
 
@@ -105,9 +105,23 @@ def _changes(model: Model, turns: int, history: int) -> str:
     return f"; the kind changes {changes}, at most {span(history)} of history are kept"
 
 
-def _mixed_kinds(model: Model, child: str) -> str:
-    """Return the consequence of a frame that is sent as static and as moving."""
+def _mixed_kinds(model: Model, child: str, tracks: Sequence[Track], turns: int) -> str:
+    """Return the consequence of a frame that is sent as static and as moving.
+
+    Args:
+        model: Model of the evidence.
+        child: The frame.
+        tracks: All transforms of the frame.
+        turns: Number of changes of kind.
+    """
     if not is_ros1(model.evidence):
+        last = max(tracks, key=lambda track: int(track.logs.max()))
+        lost = [track.parent for track in tracks if track.parent != last.parent]
+        if turns == 1 and lost:
+            return (
+                f"after the change {child} has only the parent {last.parent}: lookups through "
+                f"{several(lost)} fail"
+            )
         return f"each change of kind clears the history of {child}: lookups in the past fail"
     first = model.first_of(child)
     at = f"{as_seconds(int(first.logs[0]) - model.start):.2f} s"
