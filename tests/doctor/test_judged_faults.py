@@ -923,3 +923,33 @@ def test_topics_without_a_position_in_an_unknown_frame_are_named():
     made.hears("/temperature", "base_imu", kind="sensor_msgs/Temperature")
     (finding,) = [one for one in made.judged().findings if one.id == "unknown-frame"]
     assert "also in this frame, without a position: /temperature" in finding.evidence[0]
+
+
+def test_moving_joints_without_state_are_no_missing_statics_in_early_ros1():
+    made = Robot()
+    made.kind = "ROS 1 bag"
+    made.moving("odom", "base_link", node="/driver")
+    for name in ("laser", "sonar", "top", "swivel"):
+        made.moving("base_link", name, pose=stands, node="/robot_state_publisher")
+    made.moving("caster", "hubcap", pose=stands, node="/robot_state_publisher")
+    assert "nothing in the data says" in found(made, "split-tree").fixes[0].text
+
+
+def test_an_arm_without_recorded_statics_is_not_measured_first():
+    made = robot(laser=False, scans=False)
+    made.moving("base_link", "conveyor", pose=stands)
+    made.moving("imu_link", "arm", pose=stands)
+    (fix,) = found(made, "split-tree").fixes
+    assert "look whether the robot sends any" in fix.text
+    assert fix.text.index("look whether") < fix.text.index("if nothing sends it, measure")
+
+
+def test_a_sensor_whose_messages_all_have_stamp_0_is_reported():
+    made = robot()
+    made.hears("/imu", "laser", kind="sensor_msgs/Imu")
+    kind, rows = made.heard["/imu"]
+    made.heard["/imu"] = (kind, [(0, *row) for _, *row in rows])
+    finding = found(made, "zero-stamp")
+    assert (finding.topics, finding.severity) == (("/imu",), Severity.WARNING)
+    made.heard["/imu"] = (kind, [(0, log, "elsewhere") for _, log, _ in rows])
+    assert found(made, "zero-stamp").severity is Severity.NOTE

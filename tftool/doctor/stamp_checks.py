@@ -23,15 +23,17 @@ COMPARE_CLOCKS = Fix("compare the clocks of the computers (`date`, `chronyc trac
 @check(
     "zero-stamp",
     Severity.WARNING,
-    rule="a transform on a dynamic topic has stamp 0",
+    rule="a transform on a dynamic topic has stamp 0, or all messages of a sensor, {messages:g} or "
+    "more. A note for a sensor whose frame is in no transform",
     headline="{where} {concerned:has|have} stamp 0",
-    detail="{edge}: {count} of {of} samples",
+    detail="{what}: {count} of {of} {kind}",
     consequence="{so}; in a lookup, 0 means the latest time",
     fixes=(Fix("{find_unset}"),),
     causes=(
         "the stamp is never set",
         "use_sim_time without /clock",
     ),
+    limits={"messages": 10},
 )
 def zero_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     """A moving frame has stamp 0."""
@@ -43,9 +45,28 @@ def zero_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
                 so = "lookups at any other time fail"
             yield hit_of(
                 track,
-                {"count": len(zeros), "of": len(track.stamps), "so": so},
+                {
+                    "what": track.name,
+                    "count": len(zeros),
+                    "of": len(track.stamps),
+                    "kind": "samples",
+                    "so": so,
+                },
                 since=int(track.logs[zeros[0]]),
                 count=len(zeros),
+                group=so,
+            )
+    for heard in model.heard:
+        count = len(heard.stamps)
+        is_sensor = heard.type.startswith("sensor_msgs/") and heard.is_spatial
+        if is_sensor and count >= limits["messages"] and not heard.stamps.any():
+            so = "the latest transform places each message, whatever its age"
+            facts: dict[str, Fact] = {"what": heard.topic, "tf_topic": heard.topic, "so": so}
+            yield hit_of(
+                heard,
+                {**facts, "count": count, "of": count, "kind": "messages"},
+                count=count,
+                severity=None if heard.frame in model.frames else Severity.NOTE,
                 group=so,
             )
 
