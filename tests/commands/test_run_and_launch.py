@@ -376,6 +376,21 @@ def test_a_node_can_be_put_into_a_scenario(tmp_path, capsys):
     assert "[mine]: laser in map" in capsys.readouterr().err
 
 
+@pytest.mark.skipif(os.name == "nt", reason="the command ros2 is a shell script")
+def test_the_command_ros2_of_a_child_process_is_refused_on_simulated_time(tmp_path, capfd):
+    file = tmp_path / "parent.py"
+    file.write_text(
+        NODE + "import subprocess\n"
+        "for words in (['topic', 'list'], ['interface', 'show', 'std_msgs/msg/Bool']):\n"
+        "    print(subprocess.call(['ros2', *words]))\n"
+    )
+    assert main(["run", *SIMULATED, str(file)]) == 0
+
+    out, err = capfd.readouterr()
+    assert out.splitlines() == ["2", "bool data", "0"]
+    assert "'ros2 topic' would join a session" in err
+
+
 def interrupted(folder, line, *words):
     """Interrupt a command once it has printed a line; return its status and output."""
     environment = {**os.environ, "TFTOOL_SESSION_DIR": str(folder / "session")}

@@ -55,7 +55,7 @@ def judge_with(
         finally:
             log.end()
 
-    with ros_free(force=force):
+    with ros_free(force=force, simulated=True):
         use_workspace(workspace)
         exercise = Exercise(workspace, entrants, launch, tell=log.tell)
         yield judge

@@ -25,7 +25,7 @@ def run(connection: Connection, options: LaunchOptions) -> ExitStatus:
     if options.simulated:
         refuse_long_simulation(options.run_for)
     workspace = workspace_here(options.words[0], verbose=options.verbose)
-    with ros_free(force=options.force):
+    with ros_free(force=options.force, simulated=options.simulated):
         use_workspace(workspace)
         path, rest = find_launch_file(workspace, options.words)
         if unfound := running.reason_not_found(workspace, path):

@@ -168,7 +168,7 @@ def run(connection: Connection, options: RunOptions) -> int:
     # These nodes need an empty world, without the turtles of a default one.
     simulator = (options.target, *words[:1]) == ("turtlesim", "turtlesim_node")
     alone = simulator or (options.target in ROBOTS and options.place is None)
-    with ros_free(force=options.force) as finder:
+    with ros_free(force=options.force, simulated=options.simulated) as finder:
         use_workspace(workspace)
         found = running.find_program(workspace, options.target, words)
         file = found.executable.file if found.package is not None else None

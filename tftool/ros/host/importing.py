@@ -346,13 +346,14 @@ _finder: _Finder | None = None
 
 
 @contextmanager
-def ros_free(*, force: bool = False) -> Iterator["_Finder"]:
+def ros_free(*, force: bool = False, simulated: bool = False) -> Iterator["_Finder"]:
     """Make ROS 2's modules importable, and give every program its own `sys.argv`.
 
     Both last until the end of the `with` block.
 
     Args:
         force: Whether to replace the modules of a sourced ROS 2.
+        simulated: Whether the programs run on simulated time, which child processes cannot join.
 
     Raises:
         UsageError: If a real ROS 2 is sourced and `force` is false.
@@ -367,24 +368,26 @@ def ros_free(*, force: bool = False) -> Iterator["_Finder"]:
     if not isinstance(argv, _Arguments):
         sys.argv = _Arguments(argv)  # type: ignore[assignment]
     try:
-        with environment(), ros_modules() as finder:
+        with environment(simulated=simulated), ros_modules() as finder:
             yield finder
     finally:
         sys.argv = argv
 
 
 @contextmanager
-def environment() -> Iterator[None]:
+def environment(*, simulated: bool = False) -> Iterator[None]:
     """Set the environment variables of a sourced ROS 2 until the end of the `with` block.
 
     `ROS_DISTRO`, which launch files read, keeps an existing value. `PATH` begins with the folder of
-    tftool's `ros2` command, so that child processes find this command.
+    tftool's `ros2` command, so that child processes find this command. If `simulated`, the command
+    refuses to join a session.
     """
     commands = f"{Path(__file__).parent / 'bin'}{os.pathsep}{os.environ.get('PATH', '')}"
     wanted = {
         "ROS_DISTRO": os.environ.get("ROS_DISTRO", DISTRIBUTION),
         "PATH": commands,
         "TFTOOL_PYTHON": sys.executable,
+        "TFTOOL_SIMULATED": "1" if simulated else "",
     }
     before = {name: os.environ.get(name) for name in wanted}
     os.environ.update(wanted)
