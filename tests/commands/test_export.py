@@ -61,6 +61,17 @@ def same_turns(found, wanted, within):
     return (Rotation.from_quat(found) * Rotation.from_quat(wanted).inv()).magnitude().max() < within
 
 
+def test_the_pose_of_a_joint_at_rest_is_not_called_static(tftool, tmp_path):
+    (tmp_path / "arm.urdf").write_text(
+        '<robot name="arm"><link name="base"/><link name="tool"/><joint name="j" type="continuous">'
+        '<parent link="base"/><child link="tool"/></joint></robot>'
+    )
+
+    result = tftool("export", "base", "tool", tmp_path / "arm.urdf", "-o", tmp_path / "arm.tum")
+
+    assert result.err.endswith("because nothing between the two frames moves in this source.\n")
+
+
 @pytest.mark.parametrize("words", [["odom", "camera", "-f", "csv"], ["-f", "sh"]])
 def test_a_dash_is_no_name_of_a_file(tftool, run, tmp_path, monkeypatch, words):
     monkeypatch.chdir(tmp_path)

@@ -242,7 +242,8 @@ def _asked(buffer: Buffer, target: str, source: str, moments: Moments) -> tuple[
     if found is None:
         # All edges are static, so use any time other than 0, which would mean the latest.
         alone = max(1, moments.start or moving_span(buffer, buffer.frames())[0])
-        return np.array([alone], dtype=np.int64), "at one moment, because the transform is static"
+        words = "at one moment, because nothing between the two frames moves in this source"
+        return np.array([alone], dtype=np.int64), words
     return _within(found[1], moments), f"at the stamps of '{found[0]}'"
 
 
