@@ -403,6 +403,17 @@ def test_the_input_is_never_written_to(tftool, run, tmp_path):
     assert run.read_bytes() == before
 
 
+def test_an_output_in_the_folder_that_is_read_can_be_replaced(tftool, run, tmp_path):
+    (tmp_path / "o.tum").write_text("old")
+    (tmp_path / "broken").symlink_to("nowhere")
+
+    result = tftool("export", "odom", "base", tmp_path, "-o", tmp_path / "o.tum", "--force")
+
+    assert result.status == 0
+    assert "old" not in (tmp_path / "o.tum").read_text()
+    assert tftool("export", tmp_path, "-o", run, "--force").status == 2
+
+
 @pytest.mark.parametrize(
     ("words", "status", "told"),
     [

@@ -275,6 +275,9 @@ def refuse_input(frames: object, path: Path) -> None:
     if not isinstance(name, str) or not os.path.exists(name) or not os.path.lexists(path):
         return
     inside = os.path.isdir(name) and path.parent.exists() and os.path.samefile(name, path.parent)
+    ignored = getattr(getattr(frames, "found", None), "passed_over", ())
+    if inside and path.exists() and any(one.exists() and path.samefile(one) for one in ignored):
+        return  # a file of the folder that was not read, such as the output of an earlier export
     if inside or (path.exists() and os.path.samefile(name, path)):
         raise UsageError(f"'{path}' is the input: choose another name.")
 
