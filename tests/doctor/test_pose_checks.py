@@ -41,7 +41,7 @@ def test_rare_zeros_of_a_detector_explain_its_jumps():
         rare = tick in (100, 200, 300)
         made.sent("camera", "obj1", 0.05 * tick, (0.0, 0.0, 0.0, *NO_TURN) if rare else pose)
     assert ids(made) == ["placeholder-pose"]
-    assert found(made, "teleport").because_of == "placeholder-pose"
+    assert found(made, "outlier").because_of == "placeholder-pose"
 
 
 def test_odometry_that_is_reset_sends_no_placeholder():
@@ -131,6 +131,18 @@ def test_samples_between_a_jump_and_the_jump_back_are_outliers(every, often):
     # Half a turn and less: 2.8 rad are 160.4 degrees.
     assert finding.message == f"drone in world jumps 160° away for 30 ms, and back{often}"
     assert "3 samples at" in finding.evidence[0]
+
+
+def test_a_lasting_jump_beside_an_outlier_is_reported_too():
+    def pose(t: float) -> Pose:
+        wrong = 3.0 <= t < 3.025
+        return (0.1 * t + (0.4 if t >= 5.0 else 0.0), 0.0, 2.5 if wrong else 1.7, *NO_TURN)
+
+    made = Robot()
+    made.moving("world", "drone", 100.0, pose)
+    assert sorted(ids(made)) == ["outlier", "teleport"]
+    assert "jumps 0.40 m" in found(made, "teleport").message
+    assert found(made, "teleport").count == 1
 
 
 @pytest.mark.parametrize(("angle", "length"), [(0.4, 0.025), (2.8, 1.0), (2.8, 100.0)])

@@ -10,6 +10,7 @@ from tftool.doctor.findings import Area, Edge, Fix, Hit, Severity
 from tftool.doctor.gap_checks import base_at, is_detection
 from tftool.doctor.missing_joins import is_world, quoted
 from tftool.doctor.model import Limits, Model
+from tftool.doctor.pose_checks import OUTLIER, outliers
 from tftool.doctor.stamp_stream import BASES, Places, Track, last_part
 from tftool.doctor.wording import metres, moment, several, span
 from tftool.geometry.rigid_arrays import Floats, rotate, unit
@@ -63,7 +64,7 @@ check = checks_of(Area.VALUES)
     because_of=(
         ("anything", "time-jump-back"),
         ("mixed", "publisher-conflict two-parents"),
-        ("edge", "placeholder-pose frozen-pose outlier"),
+        ("edge", "placeholder-pose frozen-pose"),
     ),
 )
 def teleport(model: Model, limits: Limits) -> Iterator[Hit]:
@@ -109,6 +110,10 @@ def _jump(model: Model, track: Track, places: Places, limits: Limits) -> Hit | N
     moved = _jumps(apart, gaps, limits["metres"], limits["speed"], limits["times"])
     spun = _jumps(turned, gaps, limits["radians"], limits["turning"], limits["times"])
     jumps = np.flatnonzero((moved | spun) & later)
+    if is_whole and len(jumps):
+        # The check `outlier` reports the steps away and back.
+        ends = [end - 1 for run in outliers(track, OUTLIER) for end in run]
+        jumps = np.setdiff1d(jumps, ends)
     topic, after = _trigger(model, track.logs[others[jumps]])
     share = limits["triggered"] if topic else limits["share"]
     if not len(jumps) or len(jumps) > max(limits["few"], share * len(gaps)):

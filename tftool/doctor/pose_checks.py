@@ -193,6 +193,18 @@ _SHORT = 1e-3
 """Minimum time between two samples, seconds, that is used for a speed."""
 
 
+OUTLIER = {
+    "metres": 0.25,
+    "radians": 0.5,
+    "times": 8.0,
+    "samples": 10,
+    "seconds": 0.1,
+    "back": 0.3,
+    "share": 0.02,
+}
+"""Default thresholds of the check `outlier`."""
+
+
 @check(
     "outlier",
     Severity.WARNING,
@@ -208,15 +220,7 @@ _SHORT = 1e-3
         "a motion capture system that mistakes its markers for each other",
         "a detection of a symmetric object",
     ),
-    limits={
-        "metres": 0.25,
-        "radians": 0.5,
-        "times": 8.0,
-        "samples": 10,
-        "seconds": 0.1,
-        "back": 0.3,
-        "share": 0.02,
-    },
+    limits=OUTLIER,
     because_of=(
         ("anything", "time-jump-back"),
         ("edge", "publisher-conflict two-parents placeholder-pose"),
