@@ -187,16 +187,8 @@ def scenario_named(
 
     found = named(word)
     if found.kind is not Kind.SCENARIO:
-        raise UsageError(f"'{visible(word)}' is {kind_in_words(found)}: name a scenario instead.")
+        raise UsageError(f"'{visible(word)}' is {found.kind.in_words}: name a scenario instead.")
     return load(found.paths[0], arguments or {}, expects=expects)
-
-
-def kind_in_words(found: Found) -> str:
-    """Return the kind of a source with an article, such as "a robot description"."""
-    if found.kind is Kind.SEVERAL:
-        return "several recordings"
-    article = "an" if found.kind is Kind.MCAP else "a"
-    return f"{article} {found.kind.value}" + (" recording" if found.kind.is_recording else "")
 
 
 def refuse_options_of_files(

@@ -38,13 +38,20 @@ def test_a_link_is_set_in_degrees_and_the_result_is_told(run, capsys):
     assert status == 0
     assert told.err == ""
     assert told.out.splitlines() == [
-        "        1 transforms set",
+        "        1 transform set",
         f"{len(SENT):>9} messages written, read again and found equal: b.mcap",
     ]
     with open_recording("b.mcap") as recording:
         found = recording.buffer.lookup_transform("base_link", "laser").transform
     assert tuple(found.translation) == (1, 2, 3)
     assert tuple(found.rotation) == pytest.approx((0, 0, math.sqrt(0.5), math.sqrt(0.5)))
+
+
+def test_a_recording_with_options_of_pose_files_is_named_with_its_article(run, capsys):
+    assert main(["tree", "a.mcap", "--inverted"]) == 2
+    assert "'a.mcap' is an MCAP recording, not a pose file" in capsys.readouterr().err
+    assert main(["tree", "r1=a.mcap"]) == 3
+    assert "'r1=a.mcap' is an MCAP recording, but" in capsys.readouterr().err
 
 
 def test_what_is_no_recording_is_wrong_usage_as_everywhere(run, tmp_path, capsys):

@@ -287,7 +287,7 @@ def test_definitions_that_are_made_up_are_not_read(tmp_path, capsys):
     with open_recording(path) as recording:
         assert recording.topics[0].definition == ""
     assert main(["edit", str(path), "-o", str(tmp_path / "out.mcap")]) == 0
-    assert "1 messages written" in capsys.readouterr().out
+    assert "1 message written" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("number", [None, "abc", b"\x00", float("inf"), 1.5])

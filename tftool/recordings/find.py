@@ -160,6 +160,15 @@ class Kind(Enum):
         """Whether `open_recording` can read a source of this kind."""
         return self not in (Kind.SCENARIO, Kind.DESCRIPTION, Kind.STATICS)
 
+    @property
+    def in_words(self) -> str:
+        """Kind with an article, such as "an MCAP recording" or "a robot description"."""
+        if self is Kind.SEVERAL:
+            return "several recordings"
+        article = "an" if self is Kind.MCAP else "a"
+        is_recording = self.is_recording and self is not Kind.POSES
+        return f"{article} {self.value}" + (" recording" if is_recording else "")
+
 
 _CONTAINERS: Final = {Kind(one.words): one for one in CONTAINERS}
 _RECORDINGS: Final = (*_CONTAINERS, Kind.ZSTD)
@@ -294,7 +303,7 @@ def _kind_with_options(word: str, path: Path) -> Kind:
         return Kind.POSES
     kind = kind_of_file(path)
     if kind is not Kind.POSES:
-        options.refuse(f"'{word}' is a {kind.value}, not a pose file")
+        options.refuse(f"'{word}' is {kind.in_words}, not a pose file")
     return kind
 
 
@@ -307,8 +316,8 @@ def _prefixed(word: str, path: Path) -> Found:
     kind = _kind_with_options(word, path)
     if kind is not Kind.POSES:
         raise InputError(
-            f"'{word}' is a {kind.value}, but only pose files can have a prefix (NAME=FILE): leave "
-            "out the prefix."
+            f"'{word}' is {kind.in_words}, but only pose files can have a prefix (NAME=FILE): "
+            "leave out the prefix."
         )
     return Found(word, kind, (path,))
 

@@ -1,6 +1,7 @@
 """Implementation of `tftool edit`: change the frames of recordings; repair, join and cut them."""
 
 import math
+import re
 import sys
 from collections import Counter
 from collections.abc import Sequence
@@ -27,6 +28,9 @@ from tftool.recordings.find import Kind, find
 from tftool.recordings.recording import open_recording
 from tftool.robots.robot_model import load_urdf
 
+_PLURAL = re.compile(r"^((?:other )?(?:message|stamp|static|transform))s\b(?! that are)")
+"""Plural of the noun that a line of the report begins with, if the line has no other plural."""
+
 
 def _tell(report: EditReport, output: Path, *, dry_run: bool, for_programs: bool) -> None:
     if for_programs:
@@ -42,11 +46,13 @@ def _tell(report: EditReport, output: Path, *, dry_run: bool, for_programs: bool
         return
     for note in report.notes:
         notice(visible(note))
-    for what, count in report.counts.items():
-        sys.stdout.write(f"{count:>9,} {what}\n")
     done = "would be written" if dry_run else "written, read again and found equal"
     many = f" ({len(report.files)} files)" if len(report.files) > 1 else ""
-    sys.stdout.write(f"{report.messages:>9,} messages {done}: {visible(str(output))}{many}\n")
+    written = f"messages {done}: {visible(str(output))}{many}"
+    for what, count in (*report.counts.items(), (written, report.messages)):
+        if count == 1:
+            what = _PLURAL.sub(r"\1", what)
+        sys.stdout.write(f"{count:>9,} {what}\n")
 
 
 def _moments(

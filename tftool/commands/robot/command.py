@@ -20,7 +20,7 @@ from tftool.drawing.space_file import drawn_file
 from tftool.drawing.theme import DARK, LIGHT
 from tftool.frames.frame_files import beyond_limits, load_described
 from tftool.geometry.rigid import Transform
-from tftool.opener import kind_in_words, named
+from tftool.opener import named
 from tftool.recordings.find import Kind
 from tftool.recordings.target import whole_file
 from tftool.robots.mesh_folders import MeshFolders
@@ -139,7 +139,7 @@ def run(connection: Connection, options: RobotOptions) -> ExitStatus:
     found = named(options.place)
     if found.kind is not Kind.DESCRIPTION:
         raise UsageError(
-            f"'{visible(options.place)}' is {kind_in_words(found)}: name a robot description."
+            f"'{visible(options.place)}' is {found.kind.in_words}: name a robot description."
         )
     if options.follow and connection.robot.joints:
         raise UsageError(

@@ -24,7 +24,7 @@ from tftool.base.plain_text import visible
 from tftool.base.stamps import Duration, Stamp, seconds
 from tftool.commands.shared.connection import HOME, NO_SESSION, Connection, Mode
 from tftool.commands.shared.notices import notice, tell_news
-from tftool.opener import kind_in_words, named, refuse_options_of_files, scenario_named
+from tftool.opener import named, refuse_options_of_files, scenario_named
 from tftool.recordings.find import Kind
 from tftool.world.clock import SimClock
 from tftool.world.link.graph import SERVER, hosts
@@ -222,7 +222,7 @@ def _refuse_files(source: str | None) -> None:
     if found is not None and found.kind is not Kind.SCENARIO:
         shown = visible(found.name)
         raise UsageError(
-            f"'{shown}' is {kind_in_words(found)}, which sends no messages: "
+            f"'{shown}' is {found.kind.in_words}, which sends no messages: "
             f"'tftool tree {shown}' shows its frames."
         )
 
