@@ -193,7 +193,7 @@ def test_one_fixes_a_frame_zooms_and_shows_another_scenario(terminal):
     demo.until(lambda text: " 10 " in scale_of(text), "the whole field again")
 
     demo.press("o")
-    demo.shows("A robot: odometry that drifts")
+    demo.shows("A robot with drifting odometry")
     # One key at a time, because further keys would move past the wanted row. Only the marked row is
     # compared, since the clock above the list changes.
     while (row := marked(demo.shows("▸"))) != "robot":
