@@ -15,7 +15,7 @@ from tftool.geometry.notation import static_arguments
 from tftool.ros.host import importing, user_code
 from tftool.ros.host.error_text import undeclared
 from tftool.ros.host.names import RosOptions, expand, join, named_twice
-from tftool.ros.host.program import Program
+from tftool.ros.host.program import Program, warn_of_sim_time
 from tftool.ros.host.workspace import Workspace, missing_package
 from tftool.world.node import Node
 from tftool.world.nodes.broadcasters import (
@@ -408,7 +408,8 @@ def _start_ours(
     node = make(NodeRequest(world, full, namespace, arguments, parameters, options))
     if full in world.far_nodes:
         node.warn(named_twice(full))
-    parameters.pop("use_sim_time", None)
+    if parameters.pop("use_sim_time", None) is True:
+        warn_of_sim_time(world, node.warn)
     _warn_of_unused(node, parameters, declared)
     return node
 

@@ -18,7 +18,7 @@ from tftool.base.stamps import NANOSECONDS, Duration, Stamp, seconds
 from tftool.ros.host import fibers
 from tftool.ros.host.fibers import CodeLine, Fiber
 from tftool.ros.host.names import RosOptions
-from tftool.world.clock import Phase, SimClock
+from tftool.world.clock import FollowedClock, Phase, SimClock
 from tftool.world.log import Level
 from tftool.world.node import Node
 from tftool.world.world import World
@@ -448,6 +448,20 @@ def exit_status(error: SystemExit) -> int:
 async def _as_coroutine(request: Callable[[], Any]) -> Any:
     value = request()
     return await value if isinstance(value, Awaitable) else value
+
+
+IGNORED_SIM_TIME = (
+    "'use_sim_time' has no effect: no other process of this session publishes /clock, so the nodes "
+    "have the time of this machine. Start 'tftool play' first, or add --simulated"
+)
+
+
+def warn_of_sim_time(world: World, say: Callable[[str], object]) -> None:
+    """Call `say`, once in each world, if the parameter use_sim_time has no effect there."""
+    clock = world.clock
+    is_set = isinstance(clock, SimClock) or (isinstance(clock, FollowedClock) and clock.is_told)
+    if not is_set and all(one.text != IGNORED_SIM_TIME for one in world.log.records):
+        say(IGNORED_SIM_TIME)
 
 
 def set_program_of_thread(program_of_thread: "Callable[[], Program | None] | None") -> None:

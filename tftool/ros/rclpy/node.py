@@ -85,6 +85,9 @@ class Node(NodeGraph, NodeParameters):
             allow_undeclared_parameters,
             automatically_declare_parameters_from_overrides,
         )
+        if self._parameters["use_sim_time"].value is True:
+            say = partial(owner.say, "WARN", self._tftool.authority)
+            owner.ask(partial(program.warn_of_sim_time, owner.world, say))
         if enable_rosout and options.logs_to_rosout:
             profile = rosout_qos_profile or qos_profile_rosout_default
             kind = INTERFACES.message("rcl_interfaces/Log")
