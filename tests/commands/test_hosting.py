@@ -42,6 +42,17 @@ def test_a_node_that_fails_ends_the_work_with_its_name():
     assert session.world.clock.elapsed() == seconds(2)
 
 
+def test_static_follows_the_clock_that_a_playback_publishes(tftool, outside):
+    class Playing(Simulated):
+        def joined_clock(self):
+            raise InputError("the clock of the session is used")
+
+    outside["providers"] = Playing()
+
+    words = ["--frame-id", "a", "--child-frame-id", "b"]
+    assert "the clock of the session is used" in tftool("static", *words).err
+
+
 def test_a_world_whose_nodes_are_done_does_not_end_the_work():
     session = open_empty_session(Connection(), simulated=True)
     Brief(session.world, "brief")

@@ -15,7 +15,8 @@ from tftool.world.endpoints import Quality
 from tftool.world.link.graph import Role
 from tftool.world.link.link_options import Options
 from tftool.world.link.session import Link
-from tftool.world.link.topic_bridges import ClockFollower, is_clock_shown
+from tftool.world.link.session_world import shared
+from tftool.world.link.topic_bridges import is_clock_shown
 from tftool.world.world import World
 
 pytestmark = pytest.mark.usefixtures("by_memory")
@@ -30,24 +31,22 @@ def reading(moment):
 
 
 @contextlib.contextmanager
-def joined():
+def joined(role="guest"):
     """Yield the connection, the world of a host, and the world of a guest whose clock follows."""
     host, guest = World(WallClock()), World(FollowedClock())
     links = [Link(Options(name, reach=MemoryReach())) for name in ("play", "echo")]
     links[0].attach(host, role=Role.HOST)
-    links[1].attach(guest, role=Role.GUEST)
-    follower = ClockFollower(guest, guest.clock)
     try:
-        yield links[1], host, guest
+        with shared(links[1], guest, role):
+            yield links[1], host, guest
     finally:
-        follower.close()
-        for link in links:
-            link.close()
+        links[0].close()
 
 
-def test_a_world_that_has_joined_takes_now_from_the_clock_that_is_published():
+@pytest.mark.parametrize("role", ["guest", "source"])
+def test_a_world_that_has_joined_takes_now_from_the_clock_that_is_published(role):
     async def follow():
-        with joined() as (link, host, guest):
+        with joined(role) as (link, host, guest):
             assert not is_clock_shown(link.graph)
             assert not guest.clock.is_told
 

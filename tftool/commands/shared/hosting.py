@@ -293,12 +293,22 @@ def open_own_session(connection: Connection, *, simulated: bool, because: str) -
     return Session(world, True, "a world of its own", alive, link=link, tell=tell_news)
 
 
-def open_empty_session(connection: Connection, *, simulated: bool = False) -> Session:
-    """Host an empty world, to which the command adds nodes and which other processes can join."""
+def open_empty_session(
+    connection: Connection, *, simulated: bool = False, follows: bool = False
+) -> Session:
+    """Host an empty world, to which the command adds nodes and which other processes can join.
+
+    Args:
+        connection: Connection of the command.
+        simulated: Whether the world uses simulated time, and is not shared.
+        follows: Whether the world has the time of `/clock` if another process publishes it.
+    """
     if simulated:
         world, link = World(SimClock()), None
     else:
-        world, link = World(connection.providers.wall_clock()), _open_link(connection)[0]
+        given = connection.providers
+        world = World(given.joined_clock() if follows else given.wall_clock())
+        link = _open_link(connection)[0]
     alive = partial(live_shared, world, link, "source")
     return Session(world, True, "an empty world", alive, link=link, tell=tell_news)
 

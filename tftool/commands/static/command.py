@@ -29,7 +29,7 @@ def publish(connection: Connection, arguments: StaticArguments, *, spin: bool) -
             f"cannot publish static transform from '{arguments.parent}' to '{arguments.child}': "
             "child_frame_id cannot equal frame_id."
         )
-    session = open_empty_session(connection)
+    session = open_empty_session(connection, follows=True)
     session.run(_published(session, arguments, spin))
 
 

@@ -206,7 +206,8 @@ def shared(link: "Link | None", world: World, role: str = "host") -> Iterator[No
     follower: ClockFollower | None = None
     try:
         link.attach(world, role=Role(role))
-        if isinstance(world.clock, FollowedClock) and role == Role.GUEST:
+        # A player sets its own clock, which shows the recording's time from the start.
+        if isinstance(world.clock, FollowedClock) and not world.clock.is_told:
             follower = ClockFollower(world, world.clock)
         yield
     finally:
