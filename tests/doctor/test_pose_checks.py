@@ -145,6 +145,24 @@ def test_a_lasting_jump_beside_an_outlier_is_reported_too():
     assert found(made, "teleport").count == 1
 
 
+def test_a_slow_body_that_often_turns_to_the_opposite_side_and_back_has_outliers():
+    def pose(t: float) -> Pose:
+        return (0.1 * t, 0.0, 1.7, *turned(3.1 if t % 2.0 > 1.7 else 0.05 * t))
+
+    made = Robot()
+    made.moving("world", "drone", 12.0, pose)
+    assert found(made, "outlier").count == 3  # the last one lasts until the end
+
+
+def test_a_wheel_that_turns_by_half_a_turn_per_sample_has_no_outliers():
+    made = robot()
+    angle = 0.0
+    for tick in range(160):
+        angle += 3.0 if tick % 10 == 5 else 0.1
+        made.sent("base_link", "wheel", 0.05 * tick, (0.0, 0.2, 0.1, *turned(angle, axis=1)))
+    assert "outlier" not in ids(made, notes=True)
+
+
 @pytest.mark.parametrize(("angle", "length"), [(0.4, 0.025), (2.8, 1.0), (2.8, 100.0)])
 def test_small_long_and_lasting_jumps_are_no_outliers(angle, length):
     assert "outlier" not in ids(flips(angle, length=length), notes=True)

@@ -1,5 +1,6 @@
 """Checks of poses that are sent although nothing was measured: a placeholder, or the last pose."""
 
+import math
 from collections import defaultdict
 from collections.abc import Iterator
 
@@ -13,7 +14,7 @@ from tftool.doctor.gap_checks import is_detection
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_stream import Mask, Places, Track
 from tftool.doctor.wording import metres, moment, several, span
-from tftool.recordings.contract import percentile
+from tftool.recordings.contract import Floats, percentile
 
 check = checks_of(Area.VALUES)
 
@@ -199,10 +200,17 @@ OUTLIER = {
     "times": 8.0,
     "samples": 10,
     "seconds": 0.1,
+    "periods": 5,
     "back": 0.3,
     "share": 0.02,
 }
 """Default thresholds of the check `outlier`."""
+
+_HALF_TURN = math.radians(150.0)
+"""Smallest rotation in one step that counts as a turn to the opposite side, radians."""
+
+_STEADY = math.radians(20.0)
+"""Largest usual rotation in one step of a frame whose half turns are errors, radians."""
 
 
 @check(
@@ -211,8 +219,9 @@ OUTLIER = {
     rule="a pose jumps by more than {metres:g} m or {radians:g} rad, and by {times:g} times the "
     "95 % quantile of all steps. At most {samples:g} samples and {seconds:g} s later, a second "
     "such jump leads back: the rest is at most {back:%} of the jump. Such jumps are at most a "
-    "share of {share:g} of all steps. A note for a part of a robot if no sensor message is in "
-    "its frame. Not reported for a localiser",
+    "share of {share:g} of all steps. Turns of 150° or more of a moving frame that usually turns "
+    "by less than 20° may be more, and last {periods:g} periods. A note for a part of a robot if "
+    "no sensor message is in its frame. Not reported for a localiser",
     headline="{named} for {longest:span}, and back{often}",
     detail="{edge}: {wrong} at {at:moment}, {jump:m} and {turn:deg} away{others}",
     consequence="a lookup at these times gets a wrong pose",
@@ -278,9 +287,13 @@ def outliers(track: Track, limits: Limits) -> list[tuple[int, int]]:
     is_far = (apart > max(limits["metres"], limits["times"] * percentile(apart, 95))) | (
         turned > max(limits["radians"], limits["times"] * percentile(turned, 95))
     )
-    steps = np.flatnonzero(is_far)
-    if len(steps) > max(2, limits["share"] * len(apart)):
+    longest = limits["seconds"] * NANOSECONDS
+    if (flips := _half_turns(apart, turned)) is not None:
+        is_far = flips
+        longest = max(longest, limits["periods"] * track.period)
+    elif np.count_nonzero(is_far) > max(2, limits["share"] * len(apart)):
         return []
+    steps = np.flatnonzero(is_far)
     found: list[tuple[int, int]] = []
     for out, back in zip(steps[:-1].tolist(), steps[1:].tolist(), strict=True):
         before, after = places[out : out + 1], places[back + 1 : back + 2]
@@ -288,10 +301,33 @@ def outliers(track: Track, limits: Limits) -> list[tuple[int, int]]:
         rest = track.apart(before, after)[0], track.turned(before, after)[0]
         if (
             back - out <= limits["samples"]
-            and took <= limits["seconds"] * NANOSECONDS
+            and took <= longest
             and rest[0] <= limits["back"] * max(apart[out], limits["metres"])
             and rest[1] <= limits["back"] * max(turned[out], limits["radians"])
             and not (found and found[-1][1] > out)
         ):
             found.append((out + 1, back + 1))
     return found
+
+
+def _half_turns(apart: Floats, turned: Floats) -> Mask | None:
+    """Return a mask of the steps to the opposite side, and back; None if they may be motion.
+
+    A body that moves, and else turns slowly, does not turn by 150° from one sample to the next. A
+    wheel, whose joint does not move, may do so.
+
+    Args:
+        apart: Distance of each step, metres, shape (n,).
+        turned: Rotation of each step, radians, shape (n,).
+    """
+    flips = turned > _HALF_TURN
+    usual = ~flips
+    if not 1 < np.count_nonzero(flips) <= _MOST_FLIPS * len(flips):
+        return None
+    is_slow = percentile(turned[usual], 95) < _STEADY
+    mask: Mask = flips
+    return mask if is_slow and float(np.median(apart[usual])) > 0.0 else None
+
+
+_MOST_FLIPS = 0.2
+"""Largest share of steps to the opposite side that may be errors."""
