@@ -418,6 +418,15 @@ def test_of_two_sources_whose_stamps_are_hours_apart_tf2_keeps_one():
     )
 
 
+def test_no_rate_is_offered_that_only_makes_up_for_late_transforms():
+    for late, told in ((0.04, True), (0.095, False)):
+        made = robot(odometry=False)
+        made.moving("odom", "base_link", hz=8.0, latency=late)
+        made.hears("/points", "laser", kind="sensor_msgs/PointCloud2", latency=0.0)
+        texts = [fix.text for fix in found(made, "sensor-outruns-tf").fixes]
+        assert any("Hz or more" in text for text in texts) is told
+
+
 def test_no_rate_is_offered_if_the_network_holds_transforms_back():
     for held, told in ((0.0, True), (0.5, False)):
         made = robot(odometry=False)

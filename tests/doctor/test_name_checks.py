@@ -208,6 +208,12 @@ def test_transforms_of_a_type_that_tf2_does_not_read_are_told():
         topics = tuple(replace(topic, type=kind) for topic in evidence.topics)
         findings = judge(replace(evidence, topics=topics)).findings
         assert [one.id for one in findings] == told
+    topics = tuple(
+        replace(topic, name=topic.name[1:], type="geometry_msgs/TransformStamped")
+        for topic in evidence.topics
+    )
+    (finding,) = judge(replace(evidence, topics=topics)).findings
+    assert finding.fixes[0].text.startswith("let the program that wrote the recording")
 
 
 def test_a_slash_on_messages_that_are_older_than_their_frame_says_so():

@@ -291,7 +291,6 @@ def namespaced_topic(model: Model, limits: Limits) -> Iterator[Hit]:
     rule="transforms on /tf or /tf_static are in messages of a type other than TFMessage",
     headline="{topics} {topics:has|have} the type {type}, which tf2 does not read",
     consequence="no listener receives these transforms: tf2 reads tf2_msgs/TFMessage only",
-    fixes=(Fix("send them with a TransformBroadcaster, or on another topic"),),
     causes=("a publisher of single transforms whose topic was named /tf",),
 )
 def wrong_type(model: Model, limits: Limits) -> Iterator[Hit]:
@@ -302,8 +301,13 @@ def wrong_type(model: Model, limits: Limits) -> Iterator[Hit]:
             by_type[topic.type].append(topic.name)
     for kind, names in by_type.items():
         if last_part(kind) == "TransformStamped":
+            fix = Fix("let its publisher use a TransformBroadcaster, or another topic")
+            if not any(name.startswith("/") for name in names):  # no recorder writes such names
+                fix = Fix(
+                    "let the program that wrote the recording write tf2_msgs/TFMessage to /tf"
+                )
             facts = {"topics": names, "type": kind}
-            yield Hit(topics=tuple(names), facts=facts, alone=True)
+            yield Hit(topics=tuple(names), facts=facts, fixes=(fix,), alone=True)
 
 
 @check(

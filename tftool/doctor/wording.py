@@ -228,7 +228,10 @@ def rounded_up(nanoseconds: int) -> int:
 
 
 def least_rate(link: str, period: int, later: int, wait: float) -> str:
-    """Return a sentence with the rate that an edge needs; empty if its rate is high enough.
+    """Return a sentence with the rate that an edge needs; empty if another rate is no remedy.
+
+    This is so if the present rate is high enough. It is also so if more than three times that rate
+    is needed only because the transforms are late.
 
     Args:
         link: Name of the edge that delays a lookup.
@@ -246,6 +249,8 @@ def least_rate(link: str, period: int, later: int, wait: float) -> str:
     needed = math.ceil(10 / left) / 10
     # A rate that is only a few percent higher changes nothing.
     if 0 < needed * period < 1.2 * NANOSECONDS:
+        return ""
+    if 2 * left < wait and needed * period > 3.0 * NANOSECONDS:
         return ""
     return f"publish {link} at {needed:g} Hz or more, enough for {told}"
 
