@@ -1,6 +1,5 @@
 """Columns of transforms per edge (pair of frames), which grow while a recording is read."""
 
-import ctypes
 from array import array
 from collections import Counter
 from collections.abc import Sequence
@@ -139,15 +138,6 @@ def _room(size: int) -> Bytes:
     return whole[first : first + size]
 
 
-def _copy(rows: npt.NDArray[Any], room: npt.NDArray[Any]) -> None:
-    """Copy contiguous rows to the beginning of another array without holding the GIL.
-
-    The first write to a large page takes as long as unpacking a chunk, which other threads do
-    meanwhile.
-    """
-    ctypes.memmove(room.ctypes.data, rows.ctypes.data, rows.nbytes)
-
-
 # Indices in `Growing.state`; the native scan uses the same.
 _COUNT, _LAST, _ORDERED, _KEPT, _SLASHED, _MOVED = range(6)
 
@@ -205,8 +195,8 @@ class Growing:
         records, self.records = self.records, room[:split].view(np.int64).reshape(rows, 8)
         messages, self.messages = self.messages, room[split:].view(np.int32)
         # Copy only rows in use: other memory is never written, and costs nothing.
-        _copy(records[:there], self.records)
-        _copy(messages[:there], self.messages)
+        self.records[:there] = records[:there]
+        self.messages[:there] = messages[:there]
         # The native scan caches the addresses, and reads them again when this number changes.
         self.state[_MOVED] += 1
         return rows - before
