@@ -393,7 +393,7 @@ def test_no_stamp_that_stands_still_is_to_be_stamped_anew():
     findings = [one for one in made.judged().findings if one.id == "frozen-stamp"]
     assert len(findings) == 2
     assert {one.fixes[0].text for one in findings} == {
-        "look at where its publisher takes it from: `ros2 topic info --verbose /tf`"
+        "look at where its publisher takes its stamps from: `ros2 topic info --verbose /tf`"
     }
 
 

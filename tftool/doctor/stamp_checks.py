@@ -123,7 +123,9 @@ def frozen_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
             count=count,
             alone=isinstance(one, Heard) or one.is_localisation,
             severity=None if is_sensor else Severity.NOTE,
-            fixes=(Fix(f"look at where its publisher takes it from: `{{publishers}} {topic}`"),),
+            fixes=(
+                Fix(f"look at where its publisher takes its stamps from: `{{publishers}} {topic}`"),
+            ),
             group=str(facts["so"]),
         )
 
