@@ -232,5 +232,5 @@ def test_a_recorded_description_with_elements_of_xacro_is_not_run(
     result = tftool(*words, "run.mcap")
 
     assert result.status == 3
-    assert "has elements of xacro, which were not expanded" in result.err
+    assert "still has elements of xacro: expand the original file first" in result.err
     assert [one.name for one in tmp_path.iterdir()] == ["run.mcap"]

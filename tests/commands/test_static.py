@@ -45,7 +45,11 @@ FRAMES = ["--frame-id", "a", "--child-frame-id", "b"]
         (["--x=1", *FRAMES], "Extra unparsed arguments on command-line", "Write --x 1"),
         (["--frame_id", "a"], "Extra unparsed arguments", "Did you mean --frame-id?"),
         (["--zzzzzz", "a"], "Extra unparsed arguments", "There is no --zzzzzz."),
-        (["0", "0", "0", "0", "0", "0", "", "B"], "Frame id must not be empty", "last but one"),
+        (
+            ["0", "0", "0", "0", "0", "0", "", "B"],
+            "Frame id must not be empty",
+            "before the child frame",
+        ),
         (["0", "0", "0", "0", "0", "0", "A", ""], "Child frame id must not be empty", "last"),
     ],
 )
@@ -105,7 +109,7 @@ def test_the_tutorials_example_is_said_in_words(tftool):
     assert result.err.split("\n") == [
         "Old-style arguments are deprecated; see --help for new-style arguments.",
         "The sixth number is roll: 3.14 turns about the x axis. To turn about z, "
-        "put it fourth: 0 0 3 3.14 0 0 A B",
+        "write the angle as the fourth number: 0 0 3 3.14 0 0 A B",
         "",
     ]
 

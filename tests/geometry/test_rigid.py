@@ -186,7 +186,7 @@ def test_a_matrix_gives_its_transform_back(a_from_b):
     [
         (np.eye(3), "4 numbers, not 3"),
         (np.eye(4)[:3], "not of 3 rows"),
-        ([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [1, 2, 3, 1]], "transpose it"),
+        ([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [1, 2, 3, 1]], "transpose the matrix"),
         (np.diag([2.0, 2.0, 2.0, 1.0]), "not a rotation"),
         (np.diag([1.0, 1.0, -1.0, 1.0]), "mirrors"),
         (np.full((4, 4), np.nan), "not a rotation"),

@@ -192,13 +192,13 @@ def made(text):
 @pytest.mark.parametrize(
     ("text", "body", "told"),
     [
-        ("string data", b"", "4 bytes are announced and 0 have arrived"),
-        ("string data", struct.pack("<I", 5), "5 bytes are announced and 0 have arrived"),
+        ("string data", b"", "the next value needs 4 bytes, but only 0 are left"),
+        ("string data", struct.pack("<I", 5), "the next value needs 5 bytes, but only 0 are left"),
         ("string data", struct.pack("<I", 2) + b"ab", "does not end with a zero byte"),
         ("string data", struct.pack("<I", 2) + b"\xff\x00", "not UTF-8"),
         ("string data", struct.pack("<I", 4) + b"a\x00b\x00", "continues after its zero byte"),
         ("string<=2 data", struct.pack("<I", 4) + b"abc\x00", "longer than 2 characters"),
-        ("float64 data", bytes(7), "8 bytes are announced and 7 have arrived"),
+        ("float64 data", bytes(7), "the next value needs 8 bytes, but only 7 are left"),
         (
             "float64[] data",
             struct.pack("<I", 1 << 31),
@@ -212,7 +212,7 @@ def made(text):
         ),
         ("std_msgs/Header[] d", struct.pack("<I", 9) + bytes(99), "announces 9 items, but only 99"),
         ("uint8 data", b"\x01" + bytes(8), "8 bytes follow after the message"),
-        ("uint8[36] data", bytes(35), "36 bytes are announced and 35 have arrived"),
+        ("uint8[36] data", bytes(35), "the next value needs 36 bytes, but only 35 are left"),
     ],
 )
 def test_bytes_that_are_no_such_message_are_refused_with_the_reason(text, body, told):

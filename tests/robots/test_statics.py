@@ -86,7 +86,7 @@ def test_what_is_computed_is_passed_over_and_said(tmp_path):
     [
         ("a.launch.xml", "<launch><node", "not XML"),
         ("a.launch.xml", '<!DOCTYPE x [<!ENTITY a "b">]><launch>&a;</launch>', "DOCTYPE"),
-        ("a.launch.xml", "<launch/>", "No static_transform_publisher"),
+        ("a.launch.xml", "<launch/>", "The file has no static_transform_publisher"),
         ("a.launch.yaml", "launch: [", "not YAML"),
         ("a.launch.py", "def generate_launch_description():\n    (", "not Python"),
         ("a.sh", "static_transform_publisher 1 2 3\n", "8 words"),

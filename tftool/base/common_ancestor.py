@@ -5,7 +5,7 @@ from typing import Protocol, TypeVar
 
 
 class Above(Protocol):
-    """Interface of an edge of a tree, which connects a node with its parent."""
+    """Interface of an edge of a tree; an edge connects a node with its parent."""
 
     @property
     def parent(self) -> str:

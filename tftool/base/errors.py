@@ -66,7 +66,7 @@ class Mistake:
         column: Number of the column, from 1.
         text: The fault, as a sentence without its full stop.
         shown: The offending line, safe to print on a terminal; empty if the file has no such line.
-        marks: Text to print under `shown`, which marks the column with carets.
+        marks: Blanks and carets, to print below `shown`; the carets mark the column.
     """
 
     file: str
@@ -176,7 +176,7 @@ def line_of(error: BaseException, *, users_only: bool = False) -> str:
 
 
 def is_users_file(file: str) -> bool:
-    """Return whether a source file is neither part of tftool nor of Python's standard library."""
+    """Return whether a source file is outside tftool and Python's standard library."""
     if file.startswith((_PACKAGE, "<frozen")):
         return False
     return "site-packages" in file or not file.startswith(_LIBRARY)
@@ -260,9 +260,12 @@ class LookupException(TransformException):
 
     @property
     def remedy(self) -> str:
-        """Return a sentence about the loop, or with similar names or the number of known frames."""
+        """Return advice on a loop, similar frame names, or else the number of known frames."""
         if self.looped:
-            return "A frame is below one of its own children: check which nodes publish the links."
+            return (
+                "The frames form a loop: a frame is below one of its own children. "
+                "Check which nodes publish the transforms in the loop."
+            )
         if self.frame is None:
             return ""
         # Computed only for printing: a waiting program may create this error thousands of times.
@@ -272,7 +275,7 @@ class LookupException(TransformException):
             names = " or ".join(f"'{name}'" for name in near)
             return f"No transform of '{self.frame}' has arrived yet; did you mean {names}?"
         if not known:
-            return f"No transform of '{self.frame}' has arrived yet, nor of any other frame."
+            return f"No transform has arrived yet, so '{self.frame}' is unknown."
         return (
             f"No transform of '{self.frame}' has arrived yet; {len(known)} other frames are known."
         )
@@ -292,8 +295,8 @@ class ConnectivityException(TransformException):
     def remedy(self) -> str:
         """Return a sentence that advises to look at the roots of the two trees."""
         return (
-            f"No chain of links joins '{self.source}' to '{self.target}' at that time: "
-            "'tftool tree' shows the root of each."
+            f"No chain of transforms connects '{self.source}' with '{self.target}' at that time: "
+            "'tftool tree' shows the tree of each frame."
         )
 
 
@@ -384,8 +387,8 @@ class BackwardExtrapolationException(ExtrapolationException):
     def remedy(self) -> str:
         """Return a sentence with the time between lookup and oldest sample, and with advice."""
         return self._hint() or (
-            f"That is {self._by()} before the oldest sample of '{self.frame}': look up a later "
-            "time, or time 0 (the latest), or give the buffer a longer cache_time."
+            f"The requested time is {self._by()} before the oldest sample of '{self.frame}': look "
+            "up a later time, or time 0 (the latest), or give the buffer a longer cache_time."
         )
 
 
@@ -396,8 +399,8 @@ class ForwardExtrapolationException(ExtrapolationException):
     def remedy(self) -> str:
         """Return a sentence with the time between newest sample and lookup, and with advice."""
         return (
-            f"That is {self._by()} after the newest sample of '{self.frame}': look up time 0 "
-            "(the latest), or wait for the next sample."
+            f"The requested time is {self._by()} after the newest sample of '{self.frame}': look "
+            "up time 0 (the latest), or wait for the next sample."
         )
 
 
@@ -408,11 +411,11 @@ class NoDataForExtrapolationException(ExtrapolationException):
     def remedy(self) -> str:
         """Return a sentence with the time between lookup and nearest sample, and with advice."""
         if self.available == 0:
-            return f"There are no samples of '{self.frame}': wait until one is sent."
+            return f"There are no samples of '{self.frame}': wait until a sample is sent."
         side = "after" if self.requested > self.available else "before"
         return self._hint() or (
-            f"That is {self._by()} {side} the only sample of '{self.frame}': look up time 0 "
-            "(the latest), or wait for more."
+            f"The requested time is {self._by()} {side} the only sample of '{self.frame}': look up "
+            "time 0 (the latest), or wait for more samples."
         )
 
 
@@ -438,5 +441,5 @@ def without_frames(given: object) -> TypeError:
     """Return a TypeError for an argument that is neither a recording nor a buffer."""
     hint = ""
     if isinstance(given, str | os.PathLike):
-        hint = f": tftool.open_recording({os.fspath(given)!r}) opens one"
+        hint = f": tftool.open_recording({os.fspath(given)!r}) opens a recording"
     return TypeError(f"expected a Recording or a Buffer, not {given!r:.80}{hint}")

@@ -104,7 +104,7 @@ def reader_there(path: str, flags: int) -> int:
 
 
 def _opened(path: Path) -> tuple[io.FileIO, int]:
-    """Open a file or pipe without blocking; return the open file, and the bits of its mode."""
+    """Open a file or pipe without blocking; return the open file and its `st_mode`."""
     number = os.open(path, _HOW)
     try:
         mode = os.fstat(number).st_mode

@@ -85,7 +85,7 @@ def as_seconds(stamp: int) -> float:
 
 
 def time_of_day(stamp: int) -> str:
-    """Format a stamp as time of day in UTC, or in seconds if less than `SIMULATED_BELOW`."""
+    """Format a stamp as time of day in UTC; a stamp below `SIMULATED_BELOW` as seconds."""
     if stamp < SIMULATED_BELOW:
         return f"{as_seconds(stamp):.3f}"
     minutes, milliseconds = divmod(stamp // 1_000_000, 60_000)

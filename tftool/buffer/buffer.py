@@ -198,7 +198,7 @@ class Buffer(Door):
         return True
 
     def _tell_of(self, transform: TransformStamped, authority: str) -> None:
-        """Call the listeners with a stored sample, which has a unit quaternion of tf2's sign."""
+        """Call the listeners with a sample, after its quaternion got unit length and tf2's sign."""
         stamp, parent, child, pose = transform
         kept: tuple[TransformStamped, ...] = ()
         if self._listening:

@@ -111,8 +111,8 @@ def must_clear(
 class Watch:
     """Detector of backward jumps of a clock, which clears a buffer at such a jump.
 
-    A buffer has no clock. Code that fills a buffer from a recording or simulation, which may
-    restart, first passes each new time to this class.
+    A buffer has no clock, and a recording or a simulation may restart. Code that fills a buffer
+    from one of these first passes each new time to this class.
     """
 
     def __init__(

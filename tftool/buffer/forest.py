@@ -325,8 +325,8 @@ class FrameTree:
     def is_steady(self, walk: Walk) -> bool:
         """Whether the path that `walk` found is valid at every time with data.
 
-        Also true if frames above the common ancestor change their parents, as long as no path
-        through these frames can form a loop or become too long.
+        Frames above the common ancestor may change their parents. The path is still valid if no
+        path through these frames can form a loop or become too long.
         """
         frames = self.frames
         for number in (*walk.up, *walk.down):

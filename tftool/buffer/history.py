@@ -669,7 +669,7 @@ class History(Fields):
         return True
 
     def _find_newest_parent_start(self) -> int:
-        """Return the first index from which on every sample has the newest sample's parent."""
+        """Return the lowest index from which on all samples have the same parent."""
         if self.origins is None:
             return self.start
         first = self.count - 1

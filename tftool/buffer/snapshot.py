@@ -34,7 +34,7 @@ def rate_of(samples: int, span: Duration) -> float:
 
 
 class _Sweep:
-    """Computation of the poses of all frames, which computes each frame only once per time."""
+    """Computation of the poses of all frames, with a cache for frames on several paths."""
 
     def __init__(self, tree: FrameTree, at: Stamp) -> None:
         self.frames = tree.frames

@@ -1,7 +1,7 @@
 """Bodies in motion: turtlesim's turtle, a PID controller, and pursuit of a goal.
 
-The constants of the turtle are exactly turtlesim's. With Python's π, or with a field edge in double
-precision, the simulator would print other poses.
+The constants of the turtle are exactly turtlesim's: π has eight digits, and the field's edge is a
+32-bit float. With more precise constants, the poses would differ from turtlesim's.
 """
 
 import math

@@ -24,7 +24,7 @@ def refuses_arithmetic(kind: type[T]) -> type[T]:
     def refuse(self: object, other: object) -> NoReturn:
         raise TypeError(
             f"a {kind.__name__} does not support + and *: use its fields, "
-            "chain transforms with @, or convert it with list(…)"
+            f"chain transforms with @, or convert the {kind.__name__} with list(…)"
         )
 
     for name in ("__add__", "__radd__", "__mul__", "__rmul__"):
@@ -183,7 +183,7 @@ class Transform(_Parts):
         if max(map(abs, map(operator.sub, rows[3], (0.0, 0.0, 0.0, 1.0)))) > 1e-6:
             raise ValueError(
                 f"the last row of a transform's matrix must be (0, 0, 0, 1), not {rows[3]}: "
-                "transpose it if its translation is in the last row"
+                "transpose the matrix if its last row has the translation"
             )
         return cls([row[3] for row in rows[:3]], quaternion_from_matrix(rows))
 
@@ -239,7 +239,7 @@ IDENTITY = Transform()
 
 
 def compose(first: Transform, second: Transform) -> Transform:
-    """Return `a_from_c` for `a_from_b` and `b_from_c`; the quaternion has the product's sign."""
+    """Return `a_from_c` for `a_from_b` and `b_from_c`; the quaternion's sign is not changed."""
     turn = quaternions.unit(first.rotation)
     x, y, z = quaternions.rotate(turn, second.translation)
     tx, ty, tz = first.translation

@@ -53,7 +53,7 @@ def arcs(starts: Floats, ends: Floats) -> Arcs:
     Source:
         Shoemake, "Animating Rotation with Quaternion Curves", SIGGRAPH 1985. With the angle θ of
         an arc and a fraction f of it, Shoemake's formula is divided by cos(fθ) here. The results
-        are therefore no unit quaternions, and are normalised after the last multiplication.
+        therefore do not have unit length, and are normalised after the last multiplication.
     """
     ends = np.where(_dot(starts, ends) < 0.0, -ends, ends)
     apart = ends - starts

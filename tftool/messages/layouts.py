@@ -236,7 +236,9 @@ class Reader:
 
     def _cut_off(self, length: int, start: int) -> MalformedMessage:
         rest = max(self._size - start, 0)
-        return MalformedMessage(self.kind, f"{length} bytes are announced and {rest} have arrived")
+        return MalformedMessage(
+            self.kind, f"the next value needs {length} bytes, but only {rest} are left"
+        )
 
     def length(self) -> int:
         """Read the length of a string or list."""

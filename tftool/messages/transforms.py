@@ -246,7 +246,7 @@ def _count_of_transforms(payload: bytes) -> int:
 
 def _cut_off(length: int, rest: int) -> MalformedMessage:
     return MalformedMessage(
-        "string", f"a text has the length {length} bytes and {max(rest, 0)} have arrived"
+        "string", f"a string has {length} bytes, but only {max(rest, 0)} are left in the message"
     )
 
 

@@ -68,7 +68,7 @@ def load_statics(path: Path, name: str | None = None) -> StaticFrames:
     links, mistakes, computed = read_statics(path, name)
     notes = sorted((*mistakes, *computed))
     if not links:
-        why = f" {notes[0][1]}" if notes else f" No {PUBLISHER} is in it."
+        why = f" {notes[0][1]}" if notes else f" The file has no {PUBLISHER}."
         raise InputError(f"'{name}' publishes no readable static transform.{why}")
     return StaticFrames(name, tuple(links), tuple(text for _, text in notes))
 

@@ -150,8 +150,8 @@ def parse_description(text: str, name: str = "robot_description") -> RobotDescri
     """
     if "<xacro:" in text and is_xacro(text):
         raise UnexpandedXacro(
-            f"'{name}' has elements of xacro, which were not expanded: expand the file that it "
-            "comes from (xacro FILE -o robot.urdf)"
+            f"'{name}' still has elements of xacro: expand the original file first "
+            "(xacro FILE -o robot.urdf)"
         )
     return _Reader(text, name).read()
 
@@ -171,7 +171,7 @@ def _text_of(path: Path) -> str:
         return raw.decode("utf-8-sig" if encoding.lower() in ("utf-8", "utf8") else encoding)
     except LookupError as error:
         raise InputError(
-            f"'{path}' declares the encoding '{encoding}', which is unknown: save it as UTF-8"
+            f"'{path}' declares the encoding '{encoding}', which is unknown: save the file as UTF-8"
         ) from error
     except ValueError as error:
         raise InputError(f"'{path}' is not text in {encoding}: {error}") from error
@@ -271,7 +271,7 @@ class _Reader:
             line, column = parser.CurrentLineNumber - 1, parser.CurrentColumnNumber
             self._refuse(line, column, "<!DOCTYPE is not allowed: remove it")
         except expat.ExpatError as error:
-            said = expat.ErrorString(error.code) or "it cannot be read"
+            said = expat.ErrorString(error.code) or "the parser gives no reason"
             self._refuse(error.lineno - 1, error.offset, f"this is not XML: {said}")
         return roots[0]
 
@@ -483,9 +483,7 @@ class _Reader:
             kind = self._word(element, "type")
             if kind not in JOINT_TYPES:
                 near = near_names(kind, JOINT_TYPES)
-                hint = (
-                    f"did you mean '{near[0]}'?" if near else f"it is one of {_list(JOINT_TYPES)}"
-                )
+                hint = f"did you mean '{near[0]}'?" if near else f"use one of {_list(JOINT_TYPES)}"
                 self._note(element, f"'{kind[:40]}' is not a type of joint; {hint}", "type")
                 raise _Unreadable
             ends = []
@@ -575,7 +573,7 @@ class _Reader:
                 joint_above[joint.child] = joint
         for loop in _loops(joint_above):
             way = " → ".join([*(joint.parent for joint in loop), loop[0].parent])
-            self._note(places[loop[0].name], f"the links run in a loop: {way}")
+            self._note(places[loop[0].name], f"the links form a loop: {way}")
         roots = [name for name in links if name not in joint_above]
         # Only if every joint was read, several roots are a mistake: an unread one joins two trees.
         every_joint_read = len(joints) == sum(1 for _ in robot.all("joint"))
@@ -617,7 +615,7 @@ class _Reader:
                 if name in seen:
                     if name == joint.name:
                         self.notes.append(
-                            f"joint '{joint.name}' mimics itself by way of {_list(seen)}: "
+                            f"joint '{joint.name}' mimics itself through {_list(seen)}: "
                             f"'{joint.name}' is treated as an independent joint"
                         )
                     break

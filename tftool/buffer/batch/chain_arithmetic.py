@@ -138,7 +138,7 @@ class MovingEdge:
     __slots__ = ("_buckets", "column", "intervals")
 
     def __init__(self, column: Column, count: int) -> None:
-        """Precompute tables of an edge, which make a lookup at `count` stamps faster."""
+        """Precompute the tables that make a lookup at `count` stamps faster."""
         self.column = column
         k = len(column.stamps)
         self.intervals = (
@@ -182,7 +182,7 @@ class _RowAllocator:
 
 
 class _Side:
-    """Product of the poses on one side of a chain: from source or target up to their ancestor."""
+    """Product of the poses on one side of a chain: from source or target to their ancestor."""
 
     __slots__ = ("empty", "place", "turn", "unused")
 
@@ -376,7 +376,7 @@ class BlockArrays:
         turn.close()
 
     def _join(self, translations: Floats, rotations: Floats) -> None:
-        """Combine the poses of the two sides, and write the results into the output arrays."""
+        """Combine the two sides of the chain, and write the poses into the output arrays."""
         up, down, scale = self._up, self._down, self._squares[0]
         place, turn = up.place, up.turn
         if not down.empty:

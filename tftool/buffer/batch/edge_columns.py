@@ -227,7 +227,7 @@ class Buckets:
 def find_sorted(stamps: Stamps, times: Stamps, index: Indices) -> None:
     """Write the index of the last sample at or before each time into `index`, for sorted times.
 
-    If there are fewer samples than times, the function searches the samples among the times.
+    With fewer samples than times, it is faster to search each sample's place among the times.
     """
     first, last = (stamps.searchsorted(times[[0, -1]], "right") - 1).tolist()
     if last - first > len(times):

@@ -318,7 +318,7 @@ def merge(history: History, origin: int, stamps: Stamps, samples: Floats) -> Fla
 def _first_of_their_kind(
     stamps: Stamps, samples: Floats, parents: npt.NDArray[np.int64], order: Indices
 ) -> Flags:
-    """Return a mask of the rows `order`: False for a copy of a row with the same stamp."""
+    """Return a mask of the rows `order`: False for a row that repeats a row with the same stamp."""
     # tf2 ignores a sample equal to a stored one with its stamp: check runs of equal stamps only.
     keep = np.ones(len(order), dtype=np.bool_)
     ordered = stamps[order]

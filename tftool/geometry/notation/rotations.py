@@ -316,7 +316,9 @@ def _matrix(numbers: Sequence[float]) -> Written:
     rows = [tuple(numbers[start : start + width]) for start in range(0, count, width)]
     translation = tuple(row[3] for row in rows[:3]) if width == 4 else (0.0, 0.0, 0.0)
     if count == 16 and max(abs(a - b) for a, b in zip(rows[3], (0, 0, 0, 1), strict=True)) > 1e-6:
-        hint = "; written column by column? Then transpose it" if any(rows[3][:3]) else ""
+        hint = (
+            "; transpose the matrix if it is written column by column" if any(rows[3][:3]) else ""
+        )
         raise UsageError(
             "The last row of a 4×4 matrix must be 0 0 0 1, not "
             f"{' '.join(f'{n:g}' for n in rows[3])}{hint}."

@@ -190,7 +190,8 @@ def _old_style(words: list[str]) -> StaticArguments:
     numbers = {name: _number(name, text) for name, text in zip(names, texts, strict=True)}
     if not parent:
         raise _refusal(
-            "Frame id must not be empty", "Write the parent frame as the last but one word."
+            "Frame id must not be empty",
+            "Write the parent frame as the word before the child frame.",
         )
     if not child:
         raise _refusal(
@@ -248,7 +249,8 @@ def advice(arguments: StaticArguments) -> list[str]:
         numbers = " ".join(f"{number:g}" for number in arguments.transform.translation)
         sentences.append(
             f"The sixth number is roll: {roll:g} turns about the x axis. To turn about z, "
-            f"put it fourth: {numbers} {roll:g} 0 0 {arguments.parent} {arguments.child}"
+            f"write the angle as the fourth number: {numbers} {roll:g} 0 0 "
+            f"{arguments.parent} {arguments.child}"
         )
     beyond = [angle for angle in arguments.angles if abs(angle) > 2.0 * math.pi]
     if beyond:
