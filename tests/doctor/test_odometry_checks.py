@@ -253,3 +253,13 @@ def test_commands_after_the_last_transform_are_read_unless_all_are_zero(tmp_path
     assert {topic: len(times) for topic, times in evidence.commands.items()} == {"/cmd_vel": 200}
     (stopped,) = [one for one in judge(evidence).findings if one.id == "edge-stopped"]
     assert "/cmd_vel goes on for 10.00 s (100 messages)" in stopped.evidence[0]
+
+
+@pytest.mark.parametrize(("speed", "severity"), [(0.4, Severity.NOTE), (2.0, Severity.WARNING)])
+def test_a_pose_of_motion_capture_that_is_sent_twice_moves_in_steps(speed, severity):
+    made = Robot()
+    for tick in range(400):
+        made.sent("world", "drone", 0.01 * tick, (speed * 0.02 * (tick // 2), 0.0, 1.0, *NO_TURN))
+    finding = found(made, "repeated-pose")
+    assert finding.severity is severity
+    assert "50 % of the samples repeat the pose before" in finding.message

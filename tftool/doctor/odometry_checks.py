@@ -7,6 +7,8 @@ import numpy as np
 from tftool.base.stamps import NANOSECONDS, Stamp, seconds
 from tftool.doctor.check import checks_of, hit_of
 from tftool.doctor.findings import Area, Fix, Hit, Severity
+from tftool.doctor.gap_checks import is_detection
+from tftool.doctor.missing_joins import is_world
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_stream import BASES, ROUNDED, Places, Track, are_same, last_part
 from tftool.doctor.wording import metres
@@ -302,41 +304,45 @@ def negative_variance(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "repeated-pose",
     Severity.NOTE,
-    rule="while the robot moves, a share of {share:g} or more of the samples of its odometry "
-    "repeats the previous pose with a new stamp, among {samples:g} changes of the pose or "
-    "more. A warning if the median change is {metres:g} m or {degrees:g}° or more",
+    rule="while a robot moves, a share of {share:g} or more of the samples of its odometry, or "
+    "{placed:g} or more of its pose in map or world, repeats the previous pose with a new stamp, "
+    "among {samples:g} changes of the pose or more. A warning if the median change is {metres:g} m "
+    "or {degrees:g}° or more",
     headline="{where} {concerned:moves|move} in steps: while the robot moves, {repeated:%} of the "
     "samples repeat the pose before",
     detail="{edge}: {moved:,} new poses in {samples:,} samples; by the stamps, a new pose every "
     "{every:span}, {jump:m} and {turn:deg} further (medians; 5 % turn by {far:deg} or more)",
     consequence="between two samples, the robot seems to stand or to move too fast: sensor data is "
     "placed up to one step off",
-    causes=("a node that sends its last measurement at a higher rate than that of the encoders",),
+    causes=("a node that sends its last measurement at a higher rate than that of the sensor",),
     fixes=(
         Fix("look how often its publisher gets a new pose, and stamp a pose when it was measured"),
     ),
-    limits={"share": 0.6, "samples": 20, "metres": 0.01, "degrees": 2.0},
+    limits={"share": 0.6, "placed": 0.45, "samples": 20, "metres": 0.01, "degrees": 2.0},
     because_of=(("edge", "frozen-stamp repeated-stamp publisher-conflict"),),
 )
 def repeated_pose(model: Model, limits: Limits) -> Iterator[Hit]:
     """Odometry repeats its poses with new stamps."""
     for track in model.dynamic:
-        if not last_part(track.parent).startswith("odom") or last_part(track.child) not in BASES:
+        if len(track.by_stamp) < 2 or not _is_pose_of_robot(model, track):
             continue
-        places = track.by_stamp
+        is_new = np.append(True, np.diff(track.sorted_stamps) > 0)
+        places, stamps = track.by_stamp[is_new], track.sorted_stamps[is_new]
         turned = track.turned(places[1:], places[:-1])
-        changes = np.flatnonzero((track.strides > 1e-6) | (turned > 1e-6))
+        strides = track.apart(places[1:], places[:-1])
+        changes = np.flatnonzero((strides > 1e-6) | (turned > 1e-6))
         if len(changes) <= limits["samples"]:
             continue
         # The period of the samples says nothing: two streams of a transform may alternate.
-        between = np.diff(track.sorted_stamps[changes + 1])
+        between = np.diff(stamps[changes + 1])
         every = int(median(between))
         moving = between <= min(3 * every, _STANDS)
         new, samples = int(np.count_nonzero(moving)), int(np.diff(changes)[moving].sum())
-        if new < limits["samples"] or 1.0 - new / samples < limits["share"]:
+        least = limits["share" if track.is_odometry else "placed"]
+        if new < limits["samples"] or 1.0 - new / samples < least:
             continue
         changes = changes[1:][moving]
-        far, wide = float(np.median(track.strides[changes])), float(np.median(turned[changes]))
+        far, wide = float(np.median(strides[changes])), float(np.median(turned[changes]))
         is_coarse = far > limits["metres"] or wide > np.radians(limits["degrees"])
         facts = {
             "repeated": 1.0 - new / samples,
@@ -349,6 +355,14 @@ def repeated_pose(model: Model, limits: Limits) -> Iterator[Hit]:
             "far": percentile(turned[changes], 95),
         }
         yield hit_of(track, facts, severity=Severity.WARNING if is_coarse else None)
+
+
+def _is_pose_of_robot(model: Model, track: Track) -> bool:
+    """Whether an edge is odometry, or the pose of a robot in a world frame, as of a tracker."""
+    if last_part(track.parent).startswith("odom"):
+        return last_part(track.child) in BASES
+    is_placed = is_world(track.parent) and not track.is_localisation
+    return is_placed and not is_detection(model, track)
 
 
 _STANDS = seconds(0.5)
