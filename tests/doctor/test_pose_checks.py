@@ -77,9 +77,50 @@ def test_a_pose_that_is_repeated_until_the_body_is_seen_again_is_told():
     # The pose is repeated from 3 s to the last sample before 3.5 s. The jump is the distance
     # between the poses at 3 s and 3.5 s.
     assert finding.message == (
-        "hat in world repeats its last pose for up to 438 ms, and jumps 0.25 m within 62.5 ms "
-        "when it moves again"
+        "hat in world repeats its last pose for up to 438 ms, before a jump of 0.25 m within "
+        "62.5 ms"
     )
+
+
+def measured(t: float) -> Pose:
+    """Return the pose of a body whose seven numbers all change, as measured ones do."""
+    lift, tilt = 0.01 * math.sin(3.0 * t + 0.1), 0.05 * math.sin(2.0 * t + 0.2)
+    x, y, yaw = 0.02, tilt, 0.3 + 0.1 * t
+    rotation = (x * math.cos(yaw), y, math.sin(yaw), math.cos(yaw))
+    length = math.sqrt(sum(one * one for one in rotation))
+    return (0.9 * t, lift, 1.7 + lift, *(one / length for one in rotation))
+
+
+@pytest.mark.parametrize(("flat", "told"), [(False, ["frozen-pose"]), (True, [])])
+def test_a_measured_pose_that_is_repeated_to_the_end_was_lost(flat, told):
+    def pose(t: float) -> Pose:
+        t = min(t, 6.0)
+        # A simulated robot in a plane stops at once, and rests.
+        return (0.9 * t, 0.0, 0.0, *NO_TURN) if flat else measured(t)
+
+    made = Robot()
+    made.moving("world", "car", 120.0, pose)
+    assert ids(made, notes=True) == told
+    if told:
+        finding = found(made, "frozen-pose")
+        assert finding.severity is Severity.WARNING
+        # The last sample is a period of 8.3 ms before 8 s.
+        assert finding.message == (
+            "car in world repeats its last pose for up to 1.99 s, until its last sample"
+        )
+        assert finding.evidence[0].endswith("; before, it moved at 0.9 m/s")
+
+
+@pytest.mark.parametrize(("number", "count"), [(5, 1), (4, 0)])
+def test_single_repetitions_of_a_measured_pose_are_a_note(number, count):
+    made = Robot()
+    for tick in range(600):
+        lost = tick % 100 == 50 and tick < 100 * number
+        made.sent("world", "car", tick / 120.0, measured((tick - lost) / 120.0))
+    told = [one for one in made.judged().findings if one.id == "frozen-pose"]
+    assert [one.severity for one in told] == [Severity.NOTE] * count
+    # A step of two periods at 0.9 m/s.
+    assert all(one.message.endswith("before steps of up to 15 mm") for one in told)
 
 
 @pytest.mark.parametrize("far", [0.25, 3.0])

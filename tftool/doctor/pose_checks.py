@@ -3,18 +3,19 @@
 import math
 from collections import defaultdict
 from collections.abc import Iterator
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from tftool.base.plain_text import count
 from tftool.base.stamps import NANOSECONDS
 from tftool.doctor.check import checks_of, hit_of
-from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
+from tftool.doctor.findings import Area, Confidence, Fact, Fix, Hit, Severity
 from tftool.doctor.gap_checks import is_detection
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_stream import Mask, Places, Track
 from tftool.doctor.wording import metres, moment, several, span
-from tftool.recordings.contract import Floats, percentile
+from tftool.recordings.contract import Floats, Stamps, percentile
 
 check = checks_of(Area.VALUES)
 
@@ -103,11 +104,15 @@ def _is_zero(track: Track) -> Mask:
     rule="a publisher repeats one pose of a moving frame exactly, with new stamps, for "
     "{seconds:g} s or more and {repeats:g} times or more. Then the frame jumps by {metres:g} m or "
     "more, at {times:g} times its speed after the jump or more. Its usual speed explains the "
-    "distance of the jump in the time since the pose froze, and the frame moved before and after",
-    headline="{where} {concerned:repeats its|repeat their} last pose for up to {longest:span}, "
-    "and {concerned:jumps|jump} {jump:m} within {within:span} when it moves again",
-    detail="{edge}: the same pose {stretches}; the jump is at {at:moment}; usually at most "
-    "{usual:.2g} m/s",
+    "distance of the jump in the time since the pose froze, and the frame moved before and after. "
+    "Or the pose is measured, which means that all seven numbers change in 95 % of its changes, "
+    "and it is repeated for {end:g} s or more, until its last sample, after it moved at {speed:g} "
+    "m/s or more, so fast that it would have stopped with {stop:g} m/s² or more. A note if a "
+    "measured pose is repeated {often:g} times or more, and each next step is as long as the time "
+    "since the pose froze",
+    headline="{where} {concerned:repeats its|repeat their} last pose for up to {longest:span}"
+    "{then}",
+    detail="{edge}: the same pose {stretches}{told}",
     consequence="while the pose is frozen, lookups return an old pose under a new stamp",
     fixes=(
         Fix(
@@ -115,7 +120,16 @@ def _is_zero(track: Track) -> Mask:
         ),
     ),
     causes=("a motion capture that lost its object and sends the last pose",),
-    limits={"seconds": 0.25, "repeats": 4, "metres": 0.05, "times": 3.0},
+    limits={
+        "seconds": 0.25,
+        "repeats": 4,
+        "metres": 0.05,
+        "times": 3.0,
+        "end": 0.5,
+        "speed": 0.2,
+        "stop": 20.0,
+        "often": 5,
+    },
 )
 def frozen_pose(model: Model, limits: Limits) -> Iterator[Hit]:
     """A publisher repeats the last pose of a frame that moves meanwhile."""
@@ -135,25 +149,99 @@ def frozen_pose(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _frozen(track: Track, places: Places, limits: Limits) -> Hit | None:
-    """Return a hit if one publisher's poses freeze and then jump; else None.
+    """Return a hit if one publisher's poses freeze while the frame moves; else None.
 
     Args:
         track: The edge.
         places: Indices of the publisher's samples, sorted by stamp, shape (n,).
         limits: Thresholds of `frozen-pose`.
     """
-    is_all = places is track.by_stamp
-    strides = track.strides if is_all else track.apart(places[1:], places[:-1])
+    stamps, where, turns = track.stamps[places], track.translations[places], track.rotations[places]
+    changed = np.hstack((where[1:] != where[:-1], turns[1:] != turns[:-1]))
+    moves = np.flatnonzero(changed.any(axis=1))
+    if len(moves) < _LEAST_MOVES:
+        return None
+    strides = track.strides if places is track.by_stamp else track.apart(places[1:], places[:-1])
+    # Between two moves, the pose is frozen.
+    froze, ends = moves[:-1] + 1, moves[1:]
+    frozen = _Frozen(track, places, stamps, strides, froze, ends)
+    if (hit := _jumps(frozen, moves, limits)) is not None:
+        return hit
+    # A pose in a plane changes in fewer numbers, and such a robot may rest exactly.
+    if track.is_odometry or float(np.mean(changed[moves].all(axis=1))) < _MEASURED:
+        return None
+    return _until_the_end(frozen, moves, limits) or _catches_up(frozen, limits)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Frozen:
+    """The times in which a publisher's pose does not change.
+
+    Attributes:
+        track: The edge.
+        places: Indices of the publisher's samples, sorted by stamp, shape (n,).
+        stamps: Stamps of these samples, nanoseconds, shape (n,).
+        strides: Distance from each of these samples to the next, metres, shape (n - 1,).
+        froze: Place of the first sample with each pose but the first, shape (m,).
+        ends: Place of the last sample with this pose, shape (m,).
+    """
+
+    track: Track
+    places: Places
+    stamps: Stamps
+    strides: Floats
+    froze: Places
+    ends: Places
+
+    def hit(self, kind: str, rests: Mask, then: str, told: str, **given: Fact) -> Hit:
+        """Return a hit about some of the times.
+
+        Args:
+            kind: Kind of the hit; hits of one kind are merged.
+            rests: Mask of the times, shape (m,).
+            then: What follows, for the headline.
+            told: Further evidence.
+            **given: Further facts.
+        """
+        froze, ends = self.froze[rests], self.ends[rests]
+        lasts = self.stamps[ends] - self.stamps[froze]
+        stretches = [
+            f"for {span(last)} from {moment(stamp)}"
+            for last, stamp in zip(lasts.tolist(), self.stamps[froze].tolist(), strict=True)
+        ]
+        facts: dict[str, Fact] = {
+            "longest": int(lasts.max()),
+            "stretches": several(stretches),
+            "then": then,
+        }
+        return hit_of(
+            self.track,
+            {**facts, "told": told, **given},
+            since=int(self.track.logs[self.places[froze[0]]]),
+            until=int(self.track.logs[self.places[ends[-1]]]),
+            count=len(froze),
+            confidence=Confidence.LIKELY,
+            severity=Severity.NOTE if kind == "steps" else None,
+            group=kind,
+        )
+
+
+def _jumps(frozen: _Frozen, moves: Places, limits: Limits) -> Hit | None:
+    """Return a hit if a frame jumps after its pose froze for long; else None.
+
+    Args:
+        frozen: The times in which the pose does not change.
+        moves: Places of the steps that change the pose, shape (m + 1,).
+        limits: Thresholds of `frozen-pose`.
+    """
+    strides, stamps = frozen.strides, frozen.stamps
     if not (strides >= limits["metres"]).any():
         return None
-    stamps = track.stamps[places]
-    turned = (track.rotations[places[1:]] != track.rotations[places[:-1]]).any(axis=1)
-    moves = np.flatnonzero((strides > 0.0) | turned)
     speeds = strides / np.maximum(np.diff(stamps) / NANOSECONDS, _SHORT)
     usual = percentile(speeds[moves], 95)
-    # Between two moves, the pose is frozen. Two steps after the jump show the speed.
-    is_followed = moves[1:] + 2 < len(strides)
-    froze, ends = moves[:-1][is_followed] + 1, moves[1:][is_followed]
+    # Two steps after the jump show the speed.
+    is_followed = frozen.ends + 2 < len(strides)
+    froze, ends = frozen.froze[is_followed], frozen.ends[is_followed]
     lasts = (stamps[ends] - stamps[froze]) / NANOSECONDS
     rests = (ends - froze >= limits["repeats"]) & (lasts >= limits["seconds"])
     since = (stamps[ends + 1] - stamps[froze]) / NANOSECONDS
@@ -163,29 +251,71 @@ def _frozen(track: Track, places: Places, limits: Limits) -> Hit | None:
     jumps &= beside.min(axis=0) >= _SLOW * usual
     if not jumps.any():
         return None
-    worst = int(np.flatnonzero(jumps)[strides[ends][jumps].argmax()])
-    shown = np.flatnonzero(rests)
-    return hit_of(
-        track,
-        {
-            "jump": float(strides[ends[worst]]),
-            "within": int(stamps[ends[worst] + 1] - stamps[ends[worst]]),
-            "at": int(stamps[ends[worst] + 1]),
-            "longest": int(lasts[rests].max() * NANOSECONDS),
-            "stretches": several(
-                [
-                    f"for {span(lasts[one] * NANOSECONDS)} from {moment(int(stamps[froze[one]]))}"
-                    for one in shown.tolist()
-                ]
-            ),
-            "usual": usual,
-        },
-        since=int(track.logs[places[froze[shown[0]]]]),
-        until=int(track.logs[places[ends[shown[-1]]]]),
-        count=len(shown),
-        confidence=Confidence.LIKELY,
-    )
+    worst = int(ends[np.flatnonzero(jumps)[strides[ends][jumps].argmax()]])
+    jump, within = float(strides[worst]), int(stamps[worst + 1] - stamps[worst])
+    at = int(stamps[worst + 1])
+    told = f"; the jump is at {moment(at)}; usually at most {usual:.2g} m/s"
+    then = f", before a jump of {metres(jump)} within {span(within)}"
+    shown = np.zeros(len(frozen.ends), dtype=np.bool_)
+    shown[: len(rests)] = rests
+    return frozen.hit("jump", shown, then, told, jump=jump, within=within, at=at, usual=usual)
 
+
+def _until_the_end(frozen: _Frozen, moves: Places, limits: Limits) -> Hit | None:
+    """Return a hit if a measured pose freezes at speed, until the last sample; else None.
+
+    Args:
+        frozen: The times in which the pose does not change.
+        moves: Places of the steps that change the pose, shape (m + 1,).
+        limits: Thresholds of `frozen-pose`.
+    """
+    stamps, last = frozen.stamps, len(frozen.stamps) - 1
+    begin = int(moves[-1]) + 1
+    lasts = int(stamps[last] - stamps[begin])
+    if last - begin < limits["repeats"] or lasts < limits["end"] * NANOSECONDS:
+        return None
+    before = moves[-_STEPS - 1 :]
+    way = float(frozen.strides[before[1:]].sum())
+    speed = way * NANOSECONDS / max(1, int(stamps[begin] - stamps[before[0] + 1]))
+    period = frozen.track.period / NANOSECONDS
+    if speed < max(limits["speed"], limits["stop"] * period):
+        return None
+    at_end = replace(frozen, froze=np.array([begin]), ends=np.array([last]))
+    told = f"; before, it moved at {speed:.2g} m/s"
+    return at_end.hit("ends", np.array([True]), ", until its last sample", told, speed=speed)
+
+
+def _catches_up(frozen: _Frozen, limits: Limits) -> Hit | None:
+    """Return a hit if a measured pose is often repeated while the frame moves on; else None.
+
+    Args:
+        frozen: The times in which the pose does not change.
+        limits: Thresholds of `frozen-pose`.
+    """
+    stamps, ends, froze = frozen.stamps, frozen.ends, frozen.froze
+    ways = frozen.strides[ends]
+    speeds = ways * NANOSECONDS / np.maximum(stamps[ends + 1] - stamps[froze], 1)
+    near = np.abs(np.diff(speeds)) < _STEADY_SPEED * np.minimum(speeds[1:], speeds[:-1])
+    steady = np.append(False, near) & np.append(near, False)
+    rests = steady & (stamps[ends] > stamps[froze]) & (speeds >= limits["speed"])
+    if np.count_nonzero(rests) < limits["often"]:
+        return None
+    jump = float(ways[rests].max())
+    then = f", before steps of up to {metres(jump)}"
+    return frozen.hit("steps", rests, then, "", jump=jump)
+
+
+_LEAST_MOVES = 10
+"""Minimum number of changes of a pose that shows how a frame moves."""
+
+_MEASURED = 0.95
+"""Share of a measured pose's changes in which all seven numbers change."""
+
+_STEPS = 5
+"""Number of steps that show the speed at which a pose froze."""
+
+_STEADY_SPEED = 0.3
+"""Largest relative difference of two speeds of a frame that moves on."""
 
 _SLOW = 0.1
 """Fraction of the usual speed below which a frame may be at rest."""
