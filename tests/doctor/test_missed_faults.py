@@ -112,6 +112,20 @@ def test_all_gaps_of_a_robots_pose_are_counted():
     assert finding.fixes
 
 
+@pytest.mark.parametrize(("number", "every", "told"), [(5, 0.5, 1), (4, 0.5, 0), (5, 0.8, 0)])
+def test_short_gaps_that_take_up_most_of_some_seconds_are_told(number, every, told):
+    made = Robot()
+    made.moving("odom", "base_link", end=5.0)
+    for gap in range(number):
+        # The last sample is 0.02 s before 5 s. Each gap of 0.3 s ends with some samples.
+        begin = 4.98 + every * gap + 0.3
+        made.moving("odom", "base_link", begin=begin, end=begin + every - 0.28)
+    assert ids(made) == ["gap"] * told
+    if told:
+        evidence = found(made, "gap").evidence[0]
+        assert f"the longest of {number} gaps above 200 ms, 1.50 s in all" in evidence
+
+
 def test_irregular_samples_are_not_counted_as_missing():
     made = Robot()
     at, random = 0.0, np.random.default_rng(1)

@@ -234,15 +234,16 @@ def is_detection(model: Model, track: Track) -> bool:
     rule="the largest step between two samples is above {periods:g} periods and {seconds:g} s, "
     "among {samples:g} samples or more. A note for transforms that are published on change "
     "(standard deviation of the steps divided by their mean above {variation:g}), and for a gap "
-    "below {note:g} s. A note also if no scan, point cloud or range in the frame or below it "
-    "has a stamp in the gap, unless the transform places a robot in the world. A transform "
-    "that places a robot in the world is also reported for {times:g} gaps of {again:g} s and "
-    "{missed:g} periods or more, if the last one is more than 1 s after its first sample, and for "
-    "a gap of {lost:g} s and {lost_periods:g} periods or more, after {samples:g} samples or more, "
-    "across which it turns by {turned:g}°. A transform with one exact period is also "
-    "reported if a share of {share:g} and {few:g} samples or more are missing. A note if it "
-    "turns by less than {lossy:g}° across each of these gaps, if no gap reaches {short:g} s, and "
-    "for a part of a robot that no sensor uses",
+    "below {note:g} s. A note also if no scan, point cloud or range in the frame or below it has "
+    "a stamp in the gap, unless the transform places a robot in the world. A transform that "
+    "places a robot in the world is also reported for {times:g} gaps of {again:g} s and "
+    "{missed:g} periods or more, or {dense:g} that take up a share of {taken:g} of the time from "
+    "the first to the last of them, if the last one is more than 1 s after its first sample, and "
+    "for a gap of {lost:g} s and {lost_periods:g} periods or more, after {samples:g} samples or "
+    "more, across which it turns by {turned:g}°. A transform with one exact period is also "
+    "reported if a share of {share:g} and {few:g} samples or more are missing. A note if it turns "
+    "by less than {lossy:g}° across each of these gaps, if no gap reaches {short:g} s, and for a "
+    "part of a robot that no sensor uses",
     headline="{where} {concerned:has a gap|have gaps}{often}",
     detail="{edge}: nothing from {begin:moment} to {end:moment} ({length:span}; usually every "
     "{period:span}){why}{beside}",
@@ -262,6 +263,8 @@ def is_detection(model: Model, track: Track) -> bool:
         "times": 10,
         "again": 0.2,
         "missed": 8,
+        "dense": 5,
+        "taken": 0.5,
         "lost": 0.25,
         "lost_periods": 15,
         "turned": 45.0,
@@ -313,9 +316,11 @@ def gap(model: Model, limits: Limits) -> Iterator[Hit]:
         is_lost = bool(needed) or (is_long and _places_robot(model, track, begin))
         why = f"; {missing} samples in it are unusable (NaN)" if missing else ""
         why += f"; {count(needed, 'sensor message')} in it" if needed else ""
-        if len(found) > 1 and not again:
-            least, total = _least_gap(track, limits), sum(high - low for low, high in found)
-            why += f"; the longest of {len(found)} gaps above {span(least)}, {span(total)} in all"
+        every = again or found
+        if len(every) > 1:
+            least = _least_gap(track, _short(limits) if again else limits)
+            total = span(sum(high - low for low, high in every))
+            why += f"; the longest of {len(every)} gaps above {span(least)}, {total} in all"
         yield hit_of(
             track,
             {
@@ -454,11 +459,21 @@ _EXACT = 0.05
 
 def _repeated(model: Model, track: Track, limits: Limits) -> list[tuple[int, int]]:
     """Return an edge's short gaps if they are many and the edge is the robot's pose; else []."""
-    small = {**limits, "seconds": limits["again"], "periods": limits["missed"]}
-    found = _in_service(model, track, small)
-    many = bool(found) and len(found) >= limits["times"]
+    found = _in_service(model, track, _short(limits))
+    many = bool(found) and (len(found) >= limits["times"] or _are_dense(found, limits))
     is_told = many and _places_robot(model, track, found[-1][0])
     return found if is_told else []
+
+
+def _short(limits: Limits) -> Limits:
+    """Return the thresholds of `gap` for short gaps that occur many times."""
+    return {**limits, "seconds": limits["again"], "periods": limits["missed"]}
+
+
+def _are_dense(found: list[tuple[int, int]], limits: Limits) -> bool:
+    """Whether several gaps take up most of the time from the first to the last of them."""
+    lost = sum(high - low for low, high in found)
+    return len(found) >= limits["dense"] and lost >= limits["taken"] * (found[-1][1] - found[0][0])
 
 
 def _places_robot(model: Model, track: Track, begin: int = NEVER) -> bool:
