@@ -252,7 +252,7 @@ def declare(kinds: dict[str, type[Any]], key: str, **facts: object) -> Callable[
 
 
 def parts_of(kind: type[Declared]) -> dict[str, tuple[Key, bool]]:
-    """Map each key that a class reads to (`Key`, whether written beside the class's key)."""
+    """Return, for each key that a class reads, (`Key`, whether it is beside the class's key)."""
     return {
         one.key or name: (Key(one.read, one.default), one.beside)
         for name, one in kind.declared.items()
@@ -378,7 +378,7 @@ def _tag(
 
 
 def _entries_of(kind: type, key: Scalar) -> Reader:
-    """Return a reader of the value of a class's key, which returns the fields in that value.
+    """Return a reader for the value of the key that names a class; it returns the class's fields.
 
     The value is a mapping, or a single value for the class's field `short`.
     """

@@ -417,7 +417,7 @@ class PoseOf(Subject):
     short="text",
 )
 class Logged(Subject):
-    """Question for the number of log messages with a text, and if given with a node and level."""
+    """Question for the number of log messages with a text; node and level may be given, too."""
 
     text: str = reads(values.text)
     node: str | None = reads(values.name("a node"), None)

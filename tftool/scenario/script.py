@@ -40,9 +40,10 @@ class StepFailed(TftoolError):
 
 
 class Script(Node):
-    """Node that carries out a script's actions in order of time, else in the file's order.
+    """Node that carries out a script's actions in order of time.
 
-    An action that fails is logged and recorded, and does not prevent later actions.
+    Actions of the same time are carried out in the order of the file. An action that fails is
+    logged and recorded, and does not prevent later actions.
 
     Attributes:
         start: Time at which the script began.
