@@ -168,7 +168,8 @@ class LaidOutCommand(TyperCommand):
                     else (word,)
                 )
             ]
-        ctx.meta[_POSES] = list(self._pose_options(args))
+        if any(param.name in POSE_OPTIONS for param in self.params):
+            ctx.meta[_POSES] = list(self._pose_options(args))
         return super().parse_args(ctx, args)
 
     def _pose_options(self, args: list[str]) -> "Iterator[tuple[str | None, str, Any]]":

@@ -277,7 +277,6 @@ def open_own_session(connection: Connection, *, simulated: bool, because: str) -
         LinkError: If an option such as --join requires a running session, but none runs.
         UsageError: If options such as --join are given with simulated time, which cannot be shared.
     """
-    refuse_options_of_files(connection.robot, connection.recording, None)
     link = None
     if simulated:
         connection.refuse_to_share(None)
