@@ -3,6 +3,7 @@
 import asyncio
 import inspect
 from collections.abc import AsyncIterator, Callable, Coroutine
+from functools import cached_property
 from typing import Any, ClassVar, TypeVar
 
 from tftool.base.stamps import Duration, Stamp, as_seconds, seconds, whole
@@ -59,10 +60,14 @@ class Node(Resident):
         self.world = world
         self.name = name
         self.rank = 0
-        self.parameters = Parameters(name)
         self._stops: list[Callable[[], None]] = []
         self._publishers: dict[str, TopicPublisher[Any]] = {}
         world.add(self)
+
+    @cached_property
+    def parameters(self) -> Parameters:
+        """Parameters of the node."""
+        return Parameters(self.name)
 
     @property
     def clock(self) -> Clock:
