@@ -1,6 +1,7 @@
 """Implementation of `tftool launch`: run launch files without ROS."""
 
 import sys
+from pathlib import Path
 
 from tftool.base.errors import NodeFailed, TftoolError, UsageError
 from tftool.base.exit_status import ExitStatus
@@ -8,12 +9,11 @@ from tftool.base.plain_text import visible, visible_lines
 from tftool.commands.launch import LaunchOptions
 from tftool.commands.shared.connection import Connection, Mode
 from tftool.commands.shared.hosting import open_empty_session, open_session, tell_where_to_look
-from tftool.commands.shared.notices import notice
+from tftool.commands.shared.notices import notice, tell_log
 from tftool.commands.shared.options import refuse_long_simulation
-from tftool.commands.shared.programs import tell_log, workspace_here
 from tftool.ros import running
 from tftool.ros.host.importing import ros_free
-from tftool.ros.host.workspace import use_workspace
+from tftool.ros.host.workspace import Workspace, use_workspace
 from tftool.ros.launch.arguments import find_launch_file, parse_arguments, show_arguments
 from tftool.ros.launch.engine import Launch
 
@@ -24,7 +24,9 @@ def run(connection: Connection, options: LaunchOptions) -> ExitStatus:
         raise UsageError("--simulated needs a duration: add --for SECONDS")
     if options.simulated:
         refuse_long_simulation(options.run_for)
-    workspace = workspace_here(options.words[0], verbose=options.verbose)
+    workspace = Workspace(Path.cwd(), Path(options.words[0]))
+    for skipped in workspace.skipped if options.verbose else ():
+        notice(visible_lines(skipped))
     with ros_free(force=options.force, simulated=options.simulated):
         use_workspace(workspace)
         path, rest = find_launch_file(workspace, options.words)

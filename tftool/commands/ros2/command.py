@@ -13,7 +13,6 @@ from tftool.commands.ros2 import Ros2Options
 from tftool.commands.shared.connection import NO_SESSION, Connection
 from tftool.commands.shared.hosting import open_empty_session, open_session
 from tftool.commands.shared.notices import tell_record
-from tftool.commands.shared.programs import workspace_here
 from tftool.ros import running
 from tftool.ros.host import user_code
 from tftool.ros.host.importing import ros_free
@@ -124,7 +123,7 @@ def _run_launch_tests(connection: Connection, words: list[str]) -> int:
     path, arguments = Path(words[0]), words[1:]
     user_code.compile_file(path)
     parse_arguments(arguments)
-    workspace = workspace_here(words[0], verbose=False)
+    workspace = Workspace(Path.cwd(), path)
     with ros_free():
         use_workspace(workspace)
         session = open_empty_session(connection)

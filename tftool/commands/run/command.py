@@ -8,7 +8,7 @@ from pathlib import Path
 from typer.models import Context
 
 from tftool.base.errors import UsageError
-from tftool.base.plain_text import visible
+from tftool.base.plain_text import visible, visible_lines
 from tftool.commands.run import RunOptions
 from tftool.commands.shared.connection import NO_SESSION, Connection
 from tftool.commands.shared.declaration import Invocation
@@ -18,15 +18,14 @@ from tftool.commands.shared.hosting import (
     open_session,
     tell_where_to_look,
 )
-from tftool.commands.shared.notices import notice
+from tftool.commands.shared.notices import notice, tell_log
 from tftool.commands.shared.options import refuse_long_simulation
-from tftool.commands.shared.programs import tell_log, workspace_here
 from tftool.commands.teleop import TeleopOptions
 from tftool.commands.teleop.command import run as drive
 from tftool.ros import running
 from tftool.ros.host import executables
 from tftool.ros.host.importing import ros_free
-from tftool.ros.host.workspace import is_file, use_workspace
+from tftool.ros.host.workspace import Workspace, is_file, use_workspace
 from tftool.world.link.session_world import Session
 
 ROBOTS = ("robot_state_publisher", "joint_state_publisher")
@@ -158,8 +157,11 @@ def run(connection: Connection, options: RunOptions) -> int:
     if options.simulated:
         refuse_long_simulation(options.run_for)
     words = list(options.rest or [])
-    _check_words(connection, options.target, words)
-    workspace = workspace_here(options.target, verbose=options.verbose)
+    if words:
+        _check_words(connection, options.target, words)
+    workspace = Workspace(Path.cwd(), Path(options.target))
+    for skipped in workspace.skipped if options.verbose else ():
+        notice(visible_lines(skipped))
     is_of_nodes = options.place is not None or options.simulated or options.run_for is not None
     if not is_file(options.target) and options.target not in workspace.packages:
         status = _run_other(connection, options.target, words, refused=is_of_nodes)

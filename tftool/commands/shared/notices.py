@@ -2,7 +2,7 @@
 
 import os
 import sys
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from tftool.base.plain_text import count, near_names, visible, visible_lines
@@ -10,6 +10,7 @@ from tftool.base.plain_text import count, near_names, visible, visible_lines
 if TYPE_CHECKING:
     from tftool.buffer.buffer import Buffer
     from tftool.world.log import LogRecord
+    from tftool.world.world import World
 
 MOST_NAMED = 12
 """Most frames that a hint names."""
@@ -113,6 +114,22 @@ def tell_record(record: "LogRecord", *, label: str = "") -> None:
     if color is not None and wants_color(os.environ, is_terminal=sys.stderr.isatty()):
         line = f"\033[{color}m{line}\033[0m"
     _write(label + line)
+
+
+def tell_log(world: "World", label_of: "Callable[[LogRecord], str] | None" = None) -> None:
+    """Print a world's log messages from now on.
+
+    Args:
+        world: World whose log is printed.
+        label_of: Function that returns the name of a message's program; None for a single program.
+    """
+
+    def tell(record: "LogRecord") -> None:
+        # The session prints the connection's messages.
+        if record.node != "link":
+            tell_record(record, label="" if label_of is None else label_of(record))
+
+    world.log.listen(tell, "console")
 
 
 class FoldedLog:
