@@ -21,12 +21,13 @@ from functools import cache
 from itertools import product
 
 _TABLE = """
-rclpy: rclpy.core: init spin spin_once spin_until_future_complete create_node get_global_executor
-    logging InitContextManager Context List Optional TYPE_CHECKING
-rclpy rclpy.utilities: rclpy.core: shutdown try_shutdown ok get_default_context
+rclpy: rclpy.context: init InitContextManager Context List Optional TYPE_CHECKING
+rclpy: rclpy.executors: spin spin_once spin_until_future_complete get_global_executor
+rclpy: rclpy.node: create_node
+rclpy rclpy.utilities: rclpy.context: shutdown try_shutdown ok get_default_context
     get_rmw_implementation_identifier
 rclpy rclpy.node rclpy.parameter: rclpy.parameter: Parameter
-rclpy rclpy.signals: rclpy.core: SignalHandlerOptions
+rclpy rclpy.signals: rclpy.context: SignalHandlerOptions
 rclpy.node tf2_ros: rclpy.node: Node
 rclpy.node: rclpy.node_graph: NodeNameNonExistentError
 rclpy.context: rclpy.context: Context
@@ -55,12 +56,12 @@ rclpy.qos_overriding_options: rclpy.qos: QoSOverridingOptions QosCallbackResult
 rclpy.qos_overriding_options rclpy.qos: rclpy.qos: QoSPolicyKind
 rclpy.service_introspection rclpy.service rclpy.client: rclpy.services: ServiceIntrospectionState
 rclpy.time_source: rclpy.time_source: TimeSource CLOCK_TOPIC USE_SIM_TIME_NAME
-rclpy.type_support: rclpy.core: check_for_type_support check_is_valid_msg_type
+rclpy.type_support: rclpy.node: check_for_type_support check_is_valid_msg_type
     check_is_valid_srv_type
 rclpy.type_description_service: rclpy.services: START_TYPE_DESCRIPTION_SERVICE_PARAM
 rclpy.type_hash: rclpy.node_graph: TypeHash
 rclpy.topic_endpoint_info: rclpy.node_graph: TopicEndpointInfo TopicEndpointTypeEnum
-rclpy.wait_for_message: rclpy.core: wait_for_message
+rclpy.wait_for_message: rclpy.executors: wait_for_message
 rclpy.client: rclpy.services: Client
 rclpy.service: rclpy.services: Service
 rclpy.guard_condition: rclpy.entities: GuardCondition
@@ -102,8 +103,8 @@ rclpy.lifecycle rclpy.lifecycle.managed_entity: rclpy.lifecycle: ManagedEntity S
 rclpy.lifecycle: rclpy.lifecycle: Node=LifecycleNode State=LifecycleState
     Publisher=LifecyclePublisher NodeMixin=LifecycleNodeMixin
 rclpy.serialization: rclpy.topics: serialize_message deserialize_message
-rclpy.signals: rclpy.core: get_current_signal_handlers_options
-rclpy.utilities: rclpy.core: remove_ros_args timeout_sec_to_nsec
+rclpy.signals: rclpy.context: get_current_signal_handlers_options
+rclpy.utilities: rclpy.context: remove_ros_args timeout_sec_to_nsec
 rclpy.expand_topic_name: rclpy.validation: expand_topic_name
 rclpy.topic_or_service_is_hidden: rclpy.validation: topic_or_service_is_hidden HIDDEN_TOPIC_PREFIX
 rclpy.validate_full_topic_name: rclpy.validation: validate_full_topic_name

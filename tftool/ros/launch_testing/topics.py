@@ -9,7 +9,6 @@ from typing import Any
 
 from tftool.ros.host.locks import StateMonitor
 from tftool.ros.host.shims import UserThread
-from tftool.ros.rclpy import core
 from tftool.ros.rclpy.context import Context
 from tftool.ros.rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from tftool.ros.rclpy.node import Node
@@ -65,7 +64,7 @@ class WaitForTopics:
         self._state = StateMonitor()
         self._messages: dict[str, deque[Any]] = {}
         self._context = Context()
-        core.init(context=self._context)
+        self._context.init()
         letters = "".join(random.choices(string.ascii_uppercase + string.digits, k=10))
         self._node = Node(f"_test_node_{letters}", context=self._context)
         self._pump = MessagePump(self._node, self._context)

@@ -1,9 +1,18 @@
-"""Context of rclpy: the state of a program between `rclpy.init` and `rclpy.shutdown`."""
+"""Context of rclpy: the state of a program between `rclpy.init` and `rclpy.shutdown`.
 
+Also functions of the modules rclpy.signals and rclpy.utilities.
+"""
+
+import sys
 from collections.abc import Callable, Sequence
-from typing import Any
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import TYPE_CHECKING, Any, List, Optional  # noqa: UP035
 
 from tftool.ros.host import names, program
+
+# Some programs import what rclpy's own module imports from typing.
+__all__ = ["TYPE_CHECKING", "List", "Optional"]
 
 
 class Context:
@@ -105,9 +114,90 @@ class Context:
         self.try_shutdown()
 
 
-def context_of(owner: Any) -> Context:
-    """Return a program's default context; create the context at the first call."""
+def get_default_context() -> Context:
+    """Return the default context of the calling program; create the context at the first call."""
+    owner = program.current()
     if owner.context is None:
         owner.context = Context()
     context: Context = owner.context
     return context
+
+
+@dataclass(eq=False)
+class InitContextManager:
+    """Context manager that `rclpy.init` returns; the end of the `with` block shuts rclpy down."""
+
+    context: Context
+
+    def __enter__(self) -> "InitContextManager":
+        return self
+
+    def __exit__(self, *args: object) -> None:
+        self.context.try_shutdown()
+
+
+def init(
+    *,
+    args: Sequence[str] | None = None,
+    context: Context | None = None,
+    domain_id: int | None = None,
+    signal_handler_options: Any = None,
+) -> InitContextManager:
+    """Initialise rclpy in the calling program; return a context manager that shuts rclpy down.
+
+    Raises:
+        RuntimeError: If rclpy is initialised already.
+    """
+    owner = program.current()
+    chosen = context or get_default_context()
+    if context is None and not chosen.ok() and not owner.interrupted:
+        # As in ROS 2, after a shutdown the default context may be started again.
+        owner.executor = None
+    chosen.init(args, domain_id=domain_id)
+    return InitContextManager(chosen)
+
+
+def shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
+    """Shut rclpy down in the calling program, which ends all functions that spin."""
+    (context or get_default_context()).shutdown()
+
+
+def try_shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
+    """Shut rclpy down in the calling program; do nothing if rclpy is shut down already."""
+    (context or get_default_context()).try_shutdown()
+
+
+def ok(*, context: Context | None = None) -> bool:
+    """Return whether rclpy is initialised and not shut down."""
+    return (context or get_default_context()).ok()
+
+
+class SignalHandlerOptions(IntEnum):
+    """Signals that rclpy handles, as an option of `init`."""
+
+    NO = 0
+    ALL = 1
+    SIGINT = 2
+    SIGTERM = 3
+
+
+def get_current_signal_handlers_options() -> SignalHandlerOptions:
+    """Return ALL while the default context is initialised, otherwise NO."""
+    return SignalHandlerOptions.ALL if ok() else SignalHandlerOptions.NO
+
+
+def remove_ros_args(args: Sequence[str] | None = None) -> list[str]:
+    """Return a command line, by default `sys.argv`, without the parts after `--ros-args`."""
+    return names.parse(list(sys.argv if args is None else args))[1]
+
+
+def timeout_sec_to_nsec(timeout_sec: float | None) -> int:
+    """Convert a timeout from seconds to nanoseconds; return -1 for None or a negative timeout."""
+    if timeout_sec is None or timeout_sec < 0:
+        return -1
+    return int(float(timeout_sec) * 1e9)
+
+
+def get_rmw_implementation_identifier() -> str:
+    """Return "tftool" instead of the name of a ROS 2 middleware, because none is used."""
+    return "tftool"

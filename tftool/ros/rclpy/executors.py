@@ -1,4 +1,4 @@
-"""Executors of rclpy, which run the callbacks of nodes in a fixed order.
+"""Executors of rclpy, which run the callbacks of nodes in a fixed order, and functions that spin.
 
 The event loop's thread decides which callbacks are ready; the thread that spins runs them. Timers
 run last within an instant of simulated time, so that a listener's timer sees all messages that the
@@ -15,10 +15,12 @@ from typing import Any
 
 from tftool.base.stamps import Stamp, seconds
 from tftool.ros.host import fibers, program
-from tftool.ros.rclpy.context import Context, context_of
+from tftool.ros.rclpy.context import Context, get_default_context
 from tftool.ros.rclpy.entities import NodeEntity, Timer, Work
 from tftool.ros.rclpy.futures import Future, Task
+from tftool.ros.rclpy.node_parameters import warn_of_unused
 from tftool.ros.rclpy.node_state import NodeState, state_of
+from tftool.ros.rclpy.qos import QoSProfile
 
 THREADS = 4
 """Default number of callbacks that a MultiThreadedExecutor runs at once, on every machine."""
@@ -52,7 +54,7 @@ class Executor:
 
     def __init__(self, *, context: Context | None = None) -> None:
         self._program = program.current()
-        self._context = context or context_of(self._program)
+        self._context = context or get_default_context()
         self._states: list[NodeState] = []
         self._batch: deque[NodeEntity] = deque()
         self._due: Stamp | None = None
@@ -431,6 +433,11 @@ def executor_of(owner: "program.Program") -> Executor:
     return executor
 
 
+def get_global_executor() -> Executor:
+    """Return the executor that `spin` uses by default."""
+    return executor_of(program.current())
+
+
 @contextmanager
 def serving(executor: Any, node: Any) -> Iterator[None]:
     """Add a node to an executor during the `with` block.
@@ -465,3 +472,68 @@ def wait_for(state: NodeState, future: Future, timeout_sec: float | None = None)
         with serving(executor, state.ros_node):
             executor.spin_until_future_complete(future, timeout_sec)
     return future.result()
+
+
+def spin(node: Any, executor: Executor | None = None) -> None:
+    """Execute a node's callbacks until rclpy is shut down."""
+    chosen = executor or get_global_executor()
+    with serving(chosen, node):
+        warn_of_unused(node)
+        chosen.spin()
+
+
+def spin_once(
+    node: Any, *, executor: Executor | None = None, timeout_sec: float | None = None
+) -> None:
+    """Wait until one callback of a node is ready, and execute the callback."""
+    chosen = executor or get_global_executor()
+    with serving(chosen, node):
+        chosen.spin_once(timeout_sec)
+
+
+def spin_until_future_complete(
+    node: Any, future: Future, executor: Executor | None = None, timeout_sec: float | None = None
+) -> None:
+    """Execute a node's callbacks until a future is done or the timeout has passed.
+
+    Unlike in ROS 2, a callback may call this function.
+    """
+    chosen = executor or node.executor or get_global_executor()
+    with serving(chosen, node):
+        chosen.spin_until_future_complete(future, timeout_sec)
+
+
+def wait_for_message(
+    msg_type: Any,
+    node: Any,
+    topic: str,
+    *,
+    qos_profile: QoSProfile | int = 1,
+    time_to_wait: float = -1,
+) -> tuple[bool, Any]:
+    """Block until a topic's next message arrives.
+
+    Args:
+        msg_type: Message type of the topic.
+        node: Node that subscribes to the topic.
+        topic: Name of the topic.
+        qos_profile: Quality of service of the subscription, or its depth.
+        time_to_wait: Longest wait in seconds; negative for no limit.
+
+    Returns:
+        (True, the message); (False, None) at the timeout or if rclpy was shut down.
+    """
+    arrived = Future()
+
+    def keep(message: Any) -> None:
+        if not arrived.done():
+            arrived.set_result(message)
+
+    subscription = node.create_subscription(msg_type, topic, keep, qos_profile)
+    # The waiting callback may prevent the node's other callbacks from running.
+    subscription.passes_busy_group = True
+    try:
+        wait_for(state_of(node), arrived, None if time_to_wait < 0 else time_to_wait)
+    finally:
+        node.destroy_subscription(subscription)
+    return arrived.done(), arrived.result()

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from tftool.messages.classes import INTERFACES, Message
 from tftool.ros.host import names, program
 from tftool.ros.host.fibers import CodeLine, user_line
-from tftool.ros.rclpy.context import Context, context_of
+from tftool.ros.rclpy.context import Context, get_default_context
 from tftool.ros.rclpy.entities import (
     CallbackGroup,
     GuardCondition,
@@ -20,7 +20,7 @@ from tftool.ros.rclpy.entities import (
     Timer,
     required,
 )
-from tftool.ros.rclpy.exceptions import NotInitializedException
+from tftool.ros.rclpy.exceptions import NotInitializedException, NoTypeSupportImportedException
 from tftool.ros.rclpy.logging import LoggingSeverity, RcutilsLogger, logger_services
 from tftool.ros.rclpy.node_graph import NodeGraph
 from tftool.ros.rclpy.node_parameters import NodeParameters, services_of
@@ -61,7 +61,7 @@ class Node(NodeGraph, NodeParameters):
         enable_logger_service: bool = False,
     ) -> None:
         owner = program.current()
-        self._context = context or context_of(owner)
+        self._context = context or get_default_context()
         if not self._context.ok():
             raise NotInitializedException
         options = self._context.options if use_global_arguments else names.RosOptions()
@@ -189,7 +189,7 @@ class Node(NodeGraph, NodeParameters):
         publisher_class: Any = None,
     ) -> Publisher:
         """Create a publisher on a topic."""
-        _require_message(msg_type)
+        check_is_valid_msg_type(msg_type)
         full = self._tftool.full(topic)
         profile = self.__profile(Publisher, full, qos_profile, qos_overriding_options)
         make = publisher_class or Publisher
@@ -211,7 +211,7 @@ class Node(NodeGraph, NodeParameters):
         content_filter_options: Any = None,
     ) -> Subscription:
         """Create a subscription that calls `callback` with every message on a topic."""
-        _require_message(msg_type)
+        check_is_valid_msg_type(msg_type)
         _require_callable(callback)
         full = self._tftool.full(topic)
         group = callback_group or self._default_callback_group
@@ -293,7 +293,7 @@ class Node(NodeGraph, NodeParameters):
         callback_group: CallbackGroup | None = None,
     ) -> Client:
         """Create a client of a service."""
-        _require_service(srv_type)
+        check_is_valid_srv_type(srv_type)
         full = self._tftool.full(srv_name, is_service=True)
         group = callback_group or self._default_callback_group
         return self.__keep(Client, srv_type, srv_name, full, group)
@@ -308,7 +308,7 @@ class Node(NodeGraph, NodeParameters):
         callback_group: CallbackGroup | None = None,
     ) -> Service:
         """Create a service that calls `callback(request, response)`."""
-        _require_service(srv_type)
+        check_is_valid_srv_type(srv_type)
         _require_callable(callback)
         full = self._tftool.full(srv_name, is_service=True)
         group = callback_group or self._default_callback_group
@@ -425,18 +425,47 @@ def _require_callable(callback: object) -> None:
         raise TypeError(f"a callback must be callable, not {type(callback).__name__}")
 
 
-def _require_message(kind: object) -> None:
-    if not (isinstance(kind, type) and issubclass(kind, Message)):
-        raise TypeError(f"expected a message class such as std_msgs.msg.String, got {kind!r}")
-
-
-def _require_service(kind: Any) -> None:
-    if not (hasattr(kind, "Request") and hasattr(kind, "Response")):
-        raise TypeError(f"expected a service class such as std_srvs.srv.Empty, got {kind!r}")
-
-
 def _period_of(seconds_or_duration: Any) -> int:
     """Return the nanoseconds in a timer's period, which is given in seconds or as a Duration."""
     if isinstance(seconds_or_duration, Duration):
         return seconds_or_duration.nanoseconds
     return int(float(seconds_or_duration) * 1_000_000_000)
+
+
+def create_node(node_name: str, **kwargs: Any) -> Node:
+    """Return a new `Node` with the given name; `kwargs` are further arguments of `Node`."""
+    return Node(node_name, **kwargs)
+
+
+def check_for_type_support(msg_or_srv_type: Any) -> None:
+    """Check that a class is a message, service or action type.
+
+    Raises:
+        AttributeError: If the class is not generated from an interface definition.
+        NoTypeSupportImportedException: If tftool does not know the definition.
+    """
+    if not (isinstance(msg_or_srv_type, type) and hasattr(msg_or_srv_type, "interface__")):
+        _ = type(msg_or_srv_type)._TYPE_SUPPORT
+        raise NoTypeSupportImportedException
+
+
+def check_is_valid_msg_type(msg_type: Any) -> None:
+    """Check that a class is a message type.
+
+    Raises:
+        RuntimeError: If the class is not a message type.
+    """
+    if not (isinstance(msg_type, type) and issubclass(msg_type, Message)):
+        raise RuntimeError(
+            f"expected a message class such as std_msgs.msg.String, got {msg_type!r}"
+        )
+
+
+def check_is_valid_srv_type(srv_type: Any) -> None:
+    """Check that a class is a service type.
+
+    Raises:
+        RuntimeError: If the class is not a service type.
+    """
+    if not (hasattr(srv_type, "Request") and hasattr(srv_type, "Response")):
+        raise RuntimeError(f"expected a service class such as std_srvs.srv.Empty, got {srv_type!r}")

@@ -13,7 +13,8 @@ from tftool.messages.classes import INTERFACES
 from tftool.ros.host import executables, parameter_files, rosidl_runtime
 from tftool.ros.host.package_files import read_text
 from tftool.ros.host.workspace import Workspace
-from tftool.ros.rclpy import core
+from tftool.ros.rclpy.context import init
+from tftool.ros.rclpy.node import Node
 from tftool.ros.ros2 import ros2_words
 from tftool.ros.ros2.topic_verbs import Print, show_lines
 from tftool.ros.ros2.verbs import verb_of
@@ -42,8 +43,8 @@ def body(words: Sequence[str], workspace: Workspace, show: Print) -> Callable[[]
         args.message = _message(args)
 
     def work() -> None:
-        core.init()
-        node = core.create_node(NAME, start_parameter_services=False, use_global_arguments=False)
+        init()
+        node = Node(NAME, start_parameter_services=False, use_global_arguments=False)
         try:
             status = verb_of(args)(node, args, show)
         finally:

@@ -14,7 +14,7 @@ from tftool.base.stamps import seconds
 from tftool.messages.classes import INTERFACES
 from tftool.ros.host import program, rosidl_runtime
 from tftool.ros.host.values import stamp_of
-from tftool.ros.rclpy import core
+from tftool.ros.rclpy import executors
 from tftool.ros.rclpy.node import Node
 from tftool.ros.rclpy.node_graph import get_action_names_and_types
 from tftool.ros.rclpy.qos import (
@@ -196,8 +196,8 @@ def _topic_echo(node: Node, args: argparse.Namespace, show: Print) -> None:
         show("---")
 
     _subscribe(node, args, echo)
-    while core.ok() and not (args.once and heard):
-        core.spin_once(node)
+    while node.context.ok() and not (args.once and heard):
+        executors.spin_once(node)
 
 
 def _field(message: Any, path: str) -> Any:
@@ -236,7 +236,7 @@ def _measure(
             report(values)
 
     node.create_timer(1.0, each_second)
-    core.spin(node)
+    executors.spin(node)
 
 
 def _spread(seconds_of_each: Sequence[float], window: int) -> str:
@@ -328,7 +328,7 @@ def _topic_pub(node: Node, args: argparse.Namespace, show: Print) -> None:
     )
     if publisher.get_subscription_count() < wanted:
         show(f"Waiting for at least {wanted} matching subscription(s)...")
-        while publisher.get_subscription_count() < wanted and core.ok():
+        while publisher.get_subscription_count() < wanted and node.context.ok():
             program.current().sleep(SETTLE // 5)
     show("publisher: beginning loop")
     sent = 0
@@ -342,7 +342,7 @@ def _topic_pub(node: Node, args: argparse.Namespace, show: Print) -> None:
 
     publish()
     rate = node.create_rate(args.rate or 1.0)
-    while core.ok() and not (times and sent >= times):
+    while node.context.ok() and not (times and sent >= times):
         rate.sleep()
         publish()
     # Give messages to other processes time to arrive.

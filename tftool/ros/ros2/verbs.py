@@ -7,8 +7,8 @@ from typing import Any
 
 from tftool.base.errors import UsageError
 from tftool.ros.host import parameter_files, rosidl_runtime
-from tftool.ros.rclpy import core
 from tftool.ros.rclpy.action_client import ActionClient, GoalStatus
+from tftool.ros.rclpy.executors import spin_until_future_complete
 from tftool.ros.rclpy.node import Node
 from tftool.ros.rclpy.node_graph import (
     get_action_client_names_and_types_by_node,
@@ -88,7 +88,7 @@ def _service_call(node: Node, args: argparse.Namespace, show: Print) -> None:
         response = client.call(args.message)
         show("response:")
         show(repr(response))
-        if rate is None or not core.ok():
+        if rate is None or not node.context.ok():
             return
         rate.sleep()
 
@@ -109,7 +109,7 @@ def _parameters(node: Node, name: str) -> AsyncParameterClient:
 
 
 def _answer(node: Node, future: Any) -> Any:
-    core.spin_until_future_complete(node, future)
+    spin_until_future_complete(node, future)
     return future.result()
 
 
