@@ -126,3 +126,68 @@ def test_the_end_of_a_node_ends_its_rates_and_wakes_who_sleeps_by_them(node, ros
     for rate in (asleep, idle):
         with pytest.raises(RuntimeError, match="destroyed"):
             rate.sleep()
+
+
+def time_source(node):
+    """Return a clock set by messages, its time source, and a function that sends a time to it."""
+    from rclpy.clock import ROSClock
+    from rclpy.time import Time
+    from rclpy.time_source import TimeSource
+    from rosgraph_msgs.msg import Clock
+
+    source, clock = TimeSource(node=node), ROSClock()
+    source.attach_clock(clock)
+    source.ros_time_is_active = True
+
+    def send(second):
+        source.clock_callback(Clock(clock=Time(seconds=second).to_msg()))
+        spin(node, 0.1)
+
+    return clock, source, send
+
+
+def test_a_timer_counts_time_on_the_clock_that_it_is_given(node, ros_runtime):
+    clock, source, send = time_source(node)
+    fired = []
+    timer = node.create_timer(1.0, lambda: fired.append(clock.now().nanoseconds), clock=clock)
+    spin(node, 5.0)
+    assert fired == []
+
+    # As in rcl: the first time is later than one period; missed calls are skipped; and where time
+    # falls back before the last call, a period begins.
+    for second in (100.5, 100.75, 101.25, 50.0, 50.75, 51.0):
+        send(second)
+    assert [moment / 1e9 for moment in fired] == [100.5, 101.25, 51.0]
+    assert timer.time_since_last_call() == 0
+    assert timer.time_until_next_call() == 10**9
+
+    # Where the source changes, the rest of the period remains.
+    fired.clear()
+    send(51.75)
+    source.ros_time_is_active = False
+    start = ros_runtime.elapsed()
+    spin(node, 2.0)
+    passed = [moment / 1e9 - 1000.0 - start for moment in fired]
+    assert passed == pytest.approx([0.25, 1.25])
+
+
+def test_a_rate_sleeps_on_the_clock_that_it_is_given(tftool, tmp_path):
+    file = tmp_path / "paced.py"
+    file.write_text(
+        "import threading, time\nimport rclpy\nfrom rclpy.clock import ROSClock\n"
+        "from rclpy.time import Time\nfrom rclpy.time_source import TimeSource\n"
+        "from rosgraph_msgs.msg import Clock\n"
+        "rclpy.init()\nnode = rclpy.create_node('paced')\n"
+        "source, clock = TimeSource(node=node), ROSClock()\nsource.attach_clock(clock)\n"
+        "source.ros_time_is_active = True\nrate, woken = node.create_rate(1.0, clock), []\n"
+        "def pace():\n    while len(woken) < 4:\n        rate.sleep()\n"
+        "        woken.append(clock.now().nanoseconds / 1e9)\n"
+        "thread = threading.Thread(target=pace)\nthread.start()\n"
+        "for second in (0.5, 1.5, 1.75, 2.25, 0.5, 1.0, 1.5, 2.5):\n"
+        "    source.clock_callback(Clock(clock=Time(seconds=second).to_msg()))\n"
+        "    time.sleep(5.0)\n"
+        "thread.join()\nnode.get_logger().info(f'woken: {woken}')\n"
+    )
+
+    run = tftool("run", "--simulated", "--for", "60", str(file))
+    assert "[paced]: woken: [1.5, 2.25, 1.5, 2.5]" in run.err, run.err

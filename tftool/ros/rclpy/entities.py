@@ -13,6 +13,7 @@ from functools import partial
 from typing import Any, Final, Self
 
 from tftool.base.errors import TftoolError
+from tftool.base.stamps import Stamp
 from tftool.ros.host.program import TICK
 from tftool.ros.rclpy.futures import Future
 from tftool.ros.rclpy.node_state import NodeState
@@ -275,7 +276,8 @@ class Timer(NodeEntity):
         self.callback: Callable[..., Any] | None = callback
         self.clock = clock
         self._period = period_ns
-        self._last = state.world.clock.now()
+        clock.timers.append(self)
+        self._last = clock.reading()
         self.due = self._last + period_ns
         self._canceled = not autostart
         self._takes_info = callback is not None and not accepts(callback)
@@ -294,7 +296,7 @@ class Timer(NodeEntity):
 
     def ready(self) -> bool:
         """Return whether the timer's next call is due."""
-        return not self._canceled and self.due <= self.node_state.world.clock.now()
+        return not self._canceled and self.due <= self.clock.reading()
 
     is_ready = ready
 
@@ -303,7 +305,7 @@ class Timer(NodeEntity):
 
         The next call is at the next multiple of the period, so calls that were missed are left out.
         """
-        now, due = self.node_state.world.clock.now(), self.due
+        now, due = self.clock.reading(), self.due
         self._last = now
         # A timer with period 0 must not stop simulated time.
         fastest = TICK if self.node_state.program.strict else 0
@@ -335,18 +337,41 @@ class Timer(NodeEntity):
 
         def restart() -> None:
             self._canceled = False
-            self.due = self.node_state.world.clock.now() + self._period
+            self.due = self.clock.reading() + self._period
             self.node_state.wake()
 
         self.node_state.program.ask(restart)
 
     def time_since_last_call(self) -> int:
         """Return the nanoseconds since the last call, or the creation if there was no call."""
-        return self.node_state.world.clock.now() - self._last
+        return self.clock.reading() - self._last
 
     def time_until_next_call(self) -> int | None:
         """Return the nanoseconds until the timer's next call; None for a cancelled timer."""
-        return None if self._canceled else self.due - self.node_state.world.clock.now()
+        return None if self._canceled else self.due - self.clock.reading()
+
+    def clock_jumped(self, before: Stamp, is_other_source: bool) -> None:
+        """Adapt the time of the next call after a `TimeSource` has set the clock.
+
+        With another source of time, the rest of the present period remains. Time 0 means that the
+        source has not set a time yet. If time has fallen back, a new period begins. Call this in
+        the event loop's thread.
+
+        Args:
+            before: Time of the clock before it was set, nanoseconds.
+            is_other_source: Whether the source of the clock's time has changed.
+        """
+        now = self.clock.reading()
+        if is_other_source and before and now:
+            self._last += now - before
+            self.due += now - before
+        elif not is_other_source and now < self._last:
+            self._last, self.due = now, now + self._period
+        self.node_state.wake()
+
+    def withdraw(self) -> None:
+        """Stop counting time on the clock."""
+        self.clock.timers.remove(self)
 
 
 class RateTimer(Timer):
@@ -355,9 +380,17 @@ class RateTimer(Timer):
     only_ends_spin_once = True
     on_end: Callable[[], object] = staticmethod(lambda: None)
     """Function called when the timer is destroyed."""
+    on_jump: Callable[[], object] = staticmethod(lambda: None)
+    """Function called when a `TimeSource` has set the clock."""
+
+    def clock_jumped(self, before: Stamp, is_other_source: bool) -> None:
+        """Adapt the time of the next call, and call the function `on_jump`."""
+        super().clock_jumped(before, is_other_source)
+        self.on_jump()
 
     def withdraw(self) -> None:
         """Close the timer, and call the function `on_end`."""
+        super().withdraw()
         self.on_end()
 
 

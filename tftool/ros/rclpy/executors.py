@@ -316,9 +316,11 @@ class Executor:
         for state in list(self._states):
             timers = [one for one in state.entities if isinstance(one, Timer)]
             for timer in timers:
+                # A timer of another source of time wakes the executor when this time is set.
+                is_timed = not (timer.is_canceled() or timer.clock.is_overridden)
                 if self._is_ready(timer):
                     self._batch.append(timer)
-                elif not timer.is_canceled() and self._may_run(timer):
+                elif is_timed and self._may_run(timer):
                     self._due = timer.due if self._due is None else min(timer.due, self._due)
             for entity in state.entities:
                 if not isinstance(entity, Timer) and self._is_ready(entity):
@@ -328,7 +330,7 @@ class Executor:
         # Most entities have no work, so this condition is tested first.
         if not entity.ready() or not self._may_run(entity):
             return False
-        if not (isinstance(entity, Timer) and self._program.strict):
+        if not (isinstance(entity, Timer) and self._program.strict) or entity.clock.is_overridden:
             return True
         # At the instant when a timer is due, it waits for its turn among the world's nodes.
         return entity.due <= self._reached or entity.due < self._program.clock.now()

@@ -1,14 +1,13 @@
 """Times, durations, clocks and rates of rclpy, based on tftool's clock."""
 
 import math
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import IntEnum
-from functools import total_ordering
+from functools import partial, total_ordering
 from typing import Any
 
-from tftool.base.stamps import NANOSECONDS
+from tftool.base.stamps import NANOSECONDS, Stamp
 from tftool.ros.host import program, values
 from tftool.ros.host.locks import StateMonitor
 from tftool.ros.rclpy.exceptions import NotInitializedException, ROSInterruptException
@@ -191,6 +190,10 @@ class Clock:
             raise TypeError("Clock type must be a ClockType enum")
         self._clock_type = clock_type
         self._program = program.current()
+        self.is_overridden = False
+        """Whether a `TimeSource` sets the time, which then only advances with messages."""
+        self.timers: list[Any] = []
+        """Timers that count time on this clock."""
         self._jump_handles: list[JumpHandle] = []
         self._state = StateMonitor()
         """State whose change wakes sleeping threads to check whether their sleep is over."""
@@ -208,6 +211,10 @@ class Clock:
     def now(self) -> Time:
         """Return the present time."""
         return Time(nanoseconds=self._program.now(), clock_type=self._clock_type)
+
+    def reading(self) -> Stamp:
+        """Return the present time in nanoseconds, for timers; such calls are no polling."""
+        return self._program.clock.now()
 
     def sleep_until(self, until: Time, context: Any = None) -> bool:
         """Block until a time on this clock; return False if the program or context ends earlier."""
@@ -274,27 +281,29 @@ class ROSClock(Clock):
 
     def __init__(self, *, clock_type: ClockType = ClockType.ROS_TIME) -> None:
         super().__init__(clock_type=ClockType.ROS_TIME)
-        self._is_overridden: bool | None = None
-        """Whether a time source sets the time; None without a time source."""
+        self._has_source = False
         self._override = Time(clock_type=ClockType.ROS_TIME)
 
     @property
     def ros_time_is_active(self) -> bool:
         """Whether this clock shows simulated time, or a time set by a `TimeSource`."""
-        return super().ros_time_is_active if self._is_overridden is None else self._is_overridden
+        return self.is_overridden if self._has_source else super().ros_time_is_active
 
     def now(self) -> Time:
         """Return the present time; while a `TimeSource` is active, the time that it set last."""
-        return self._override if self._is_overridden else super().now()
+        return self._override if self.is_overridden else super().now()
+
+    def reading(self) -> Stamp:
+        """Return the present time in nanoseconds, for timers; such calls are no polling."""
+        return self._override.nanoseconds if self.is_overridden else super().reading()
 
     def _set_ros_time_is_active(self, enabled: bool) -> None:
         """Show the time set by a `TimeSource` if `enabled` is true, else tftool's time."""
-        if enabled is bool(self._is_overridden):
-            self._is_overridden = enabled
+        self._has_source = True
+        if enabled is self.is_overridden:
             return
         change = ClockChange.ROS_TIME_ACTIVATED if enabled else ClockChange.ROS_TIME_DEACTIVATED
-        with self._jumping(TimeJump(change, Duration())):
-            self._is_overridden = enabled
+        self._jump(TimeJump(change, Duration()), enabled, self._override)
 
     def set_ros_time_override(self, time: Time) -> None:
         """Set the time that the clock shows while a `TimeSource` is active.
@@ -307,12 +316,11 @@ class ROSClock(Clock):
                 f"Time must be specified as rclpy.time.Time. Received type: {type(time)}"
             )
         override = Time(nanoseconds=time.nanoseconds, clock_type=ClockType.ROS_TIME)
-        if not self._is_overridden:
+        if not self.is_overridden:
             self._override = override
             return
         delta = Duration(nanoseconds=override.nanoseconds - self._override.nanoseconds)
-        with self._jumping(TimeJump(ClockChange.ROS_TIME_NO_CHANGE, delta)):
-            self._override = override
+        self._jump(TimeJump(ClockChange.ROS_TIME_NO_CHANGE, delta), True, override)
 
     def _sleep(self, duration: int, context: Any) -> bool:
         """Sleep `duration` nanoseconds on this clock; return False if the sleep ends earlier.
@@ -321,11 +329,11 @@ class ROSClock(Clock):
         """
         _require_started(context)
         until, is_changed = super().now().nanoseconds + duration, False
-        if self._is_overridden:
+        if self.is_overridden:
             until = self._override.nanoseconds + duration
 
         def is_over() -> bool:
-            reached = self._is_overridden and self._override.nanoseconds >= until
+            reached = self.is_overridden and self._override.nanoseconds >= until
             return bool(is_changed or reached)
 
         def on_jump(jump: TimeJump) -> None:
@@ -337,18 +345,24 @@ class ROSClock(Clock):
         threshold = JumpThreshold(min_forward=Duration(nanoseconds=1), min_backward=None)
         with self.create_jump_callback(threshold, post_callback=on_jump):
             # Only a jump ends a sleep while a time source gives the time.
-            length = _FOR_EVER if self._is_overridden else duration
+            length = _FOR_EVER if self.is_overridden else duration
             return self._block(length, context, is_over) and not is_changed
 
-    @contextmanager
-    def _jumping(self, jump: "TimeJump") -> Iterator[None]:
-        """Call the registered callbacks before and after the jump that the `with` block makes."""
+    def _jump(self, jump: "TimeJump", enabled: bool, override: Time) -> None:
+        """Set the time and its source; call the registered callbacks before and after."""
         handles = [one for one in self._jump_handles if one.concerns(jump)]
         for handle in handles:
             handle.call_before()
-        yield
+        self._program.ask(partial(self._set, jump, enabled, override))
         for handle in handles:
             handle.call_after(jump)
+
+    def _set(self, jump: "TimeJump", enabled: bool, override: Time) -> None:
+        # In the event loop's thread, which also reads the times of timers.
+        before = self.reading()
+        self.is_overridden, self._override = enabled, override
+        for timer in self.timers:
+            timer.clock_jumped(before, jump.clock_change is not ClockChange.ROS_TIME_NO_CHANGE)
 
 
 class ClockChange(IntEnum):
@@ -427,14 +441,15 @@ class Rate:
 
     def __init__(self, state: Any, timer: Any) -> None:
         self.timer = timer
+        self._clock: Clock = timer.clock
         self._period: int = timer.timer_period_ns
         self._program = state.program
-        self._due = self._program.clock.now() + self._period
+        self._due = self._clock.reading() + self._period
         self._context = state.context
         self._state = StateMonitor()
         self._stop = self._context.on_change(self._state.wake)
         self._over = False
-        timer.on_end = self._end
+        timer.on_jump, timer.on_end = self._state.wake, self._end
 
     def sleep(self) -> None:
         """Block until the next period begins.
@@ -446,12 +461,21 @@ class Rate:
         if self._over:
             raise RuntimeError("the rate is destroyed, so it cannot sleep: create a new one")
         self._require_context()
-        now = self._program.clock.now()
+        now = self._clock.reading()
         if self._due < now:
             self._due += -(-(now - self._due) // self._period) * self._period
-        self._state.sleep(
-            self._program, self._due - now, lambda: self._over or not self._context.ok()
-        )
+        by_messages = self._clock.is_overridden
+
+        def is_over() -> bool:
+            now = self._clock.reading()
+            # The clock may have jumped back.
+            self._due = min(self._due, now + self._period)
+            is_reached = by_messages and now >= self._due
+            is_changed = self._clock.is_overridden is not by_messages
+            return self._over or not self._context.ok() or is_reached or is_changed
+
+        length = _FOR_EVER if by_messages else self._due - now
+        self._state.sleep(self._program, length, is_over)
         if not self._over:
             self._require_context()
         self._due += self._period
