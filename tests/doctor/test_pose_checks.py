@@ -217,3 +217,18 @@ def test_samples_that_are_stamped_on_arrival_in_bunches_are_a_note():
                 at = 0.02 * tick + pause * number
                 made.sent("world", "cap", at, drives(at), latency=0.001)
         assert ("bunched-stamps" in ids(made, notes=True)) is told
+
+
+@pytest.mark.parametrize("copies", [True, False])
+def test_pairs_of_samples_that_are_stamped_on_arrival_are_a_note(copies):
+    made = robot()
+    for tick in range(600):
+        # A client that polls every 10 ms gets two samples of 120 Hz in one poll of five.
+        at = 0.01 * (tick * 5 // 6) + 0.0001 * (tick % 6 == 1)
+        pose = tick - (copies and tick % 6 == 1)
+        made.sent("world", "drone", at, (0.01 * pose, 0.0, 1.0, *NO_TURN), latency=0.0005)
+    assert ("bunched-stamps" in ids(made, notes=True)) is not copies
+    if not copies:
+        told = found(made, "bunched-stamps").evidence[0]
+        assert "16.7 % of the steps are below" in told
+        assert "moves as far in the short steps" in told

@@ -454,13 +454,22 @@ def out_of_order(model: Model, limits: Limits) -> Iterator[Hit]:
     Severity.NOTE,
     rule="half of the steps between the stamps of a moving transform with {samples:g} samples or "
     "more are below {short:g} times the mean step, one in twenty is above {long:g} times the mean "
-    "step, and the samples arrive within {seconds:g} s of their stamps",
+    "step, and the samples arrive within {seconds:g} s of their stamps. Or a share of {pairs:g} "
+    "is below {at_once:g} times the mean step, and the frame moves at least half as far in these "
+    "steps as in the others",
     headline="stamps of {where} come in bunches",
     detail="{edge}: {share:%} of the steps are below {short:span}, one in twenty is {long:span} or "
-    "more; the mean is {mean:span}",
+    "more; the mean is {mean:span}{moved}",
     consequence="an interpolated pose is off by up to such a step in time",
     causes=("the publisher stamps its data on arrival, and sends it in bunches",),
-    limits={"samples": 100, "short": 0.3, "long": 2.5, "seconds": 0.005},
+    limits={
+        "samples": 100,
+        "short": 0.3,
+        "long": 2.5,
+        "seconds": 0.005,
+        "pairs": 0.1,
+        "at_once": 0.1,
+    },
     needs=("log times",),
 )
 def bunched_stamps(model: Model, limits: Limits) -> Iterator[Hit]:
@@ -470,16 +479,28 @@ def bunched_stamps(model: Model, limits: Limits) -> Iterator[Hit]:
             continue
         steps = np.diff(track.sorted_stamps)
         mean = float(steps.mean())
-        share, long = float(np.mean(steps < limits["short"] * mean)), percentile(steps, 95)
-        delay = percentile(np.abs(track.latency), 90)
-        if share < 0.5 or long < limits["long"] * mean or delay > limits["seconds"] * NANOSECONDS:
+        short = int(limits["short"] * mean)
+        share, long = float(np.mean(steps < short)), percentile(steps, 95)
+        if percentile(np.abs(track.latency), 90) > limits["seconds"] * NANOSECONDS:
             continue
+        moved = ""
+        if share < 0.5 or long < limits["long"] * mean:
+            # A copy of a sample, from a second source, does not move the frame.
+            short = int(limits["at_once"] * mean)
+            at_once = (steps < short) & (steps > 0)
+            share, usual = float(np.mean(at_once)), float(np.median(track.strides[~at_once]))
+            if share < max(limits["pairs"], 1.0 / len(steps)) or usual == 0.0:
+                continue
+            if np.median(track.strides[at_once]) < 0.5 * usual:
+                continue
+            moved = "; the frame moves as far in the short steps as in the others"
         yield hit_of(
             track,
             {
                 "share": share,
-                "short": int(limits["short"] * mean),
+                "short": short,
                 "long": int(long),
                 "mean": int(mean),
+                "moved": moved,
             },
         )
