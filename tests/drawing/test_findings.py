@@ -79,6 +79,14 @@ def test_stamps_that_are_days_old_are_not_called_fine():
     assert clocks.endswith("stamps of tf are 24 days before their arrival")
 
 
+@pytest.mark.parametrize(("start", "told"), [(946_686_201.0, True), (1_400_000_000.0, False)])
+def test_a_recorder_in_the_year_2000_has_no_clock_that_was_set(start, told):
+    for made in (robot(start=start), robot(start=start, laser=False)):
+        text = shown(findings.render(made.judged()))
+        clock = "recorded at 946686201.005 (1 January 2000), before ROS existed"
+        assert (clock in text) is told
+
+
 def test_transforms_dated_ahead_have_no_tick_if_there_is_a_note_about_them():
     for latency, ticks in ((-0.205, 0), (0.005, 1)):
         made = robot(odometry=False, scans=False)

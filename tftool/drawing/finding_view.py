@@ -15,13 +15,13 @@ from rich.text import Text
 
 from tftool.base.plain_text import count, visible
 from tftool.base.report import Judgement, Report
-from tftool.base.stamps import Stamp, as_seconds
+from tftool.base.stamps import SIMULATED_BELOW, Stamp, as_seconds, seconds
 from tftool.doctor.check import Check
 from tftool.doctor.findings import Area, Confidence, Finding, Severity
 from tftool.doctor.judge import CHECKS, Diagnosis
 from tftool.doctor.model import Model, Shift
 from tftool.doctor.stamp_stream import WILD, Heard, Stream, Track, rate
-from tftool.doctor.wording import MOST_IN_LINE, filled, in_words, several, span
+from tftool.doctor.wording import MOST_IN_LINE, dated, filled, in_words, several, span
 from tftool.drawing import report_view as judgements
 from tftool.recordings.contract import percentile
 
@@ -149,7 +149,21 @@ def areas(diagnosis: Diagnosis) -> str:
     shown = {one.id for one in diagnosis.findings if one.is_shown and one.area is Area.CLOCKS}
     if shown and model.shift is not None and not shown & {"shifted-clock", "clock-offset"}:
         told.append(f"{Area.CLOCKS.value}: {_shifted(model.shift)}")
+    elif shown and (unset := _unset(model)):
+        told.append(f"{Area.CLOCKS.value}: {unset}")
     return " · ".join(told)
+
+
+def _unset(model: Model) -> str:
+    """Return a note about a recorder's clock that shows a time before ROS existed, else ""."""
+    start = model.evidence.start
+    if not (model.evidence.timed and SIMULATED_BELOW <= start < _FIRST_ROS):
+        return ""
+    return f"recorded at {dated(start)}, before ROS existed: the recorder's clock is wrong"
+
+
+_FIRST_ROS = seconds(1_193_875_200)
+"""Time, nanoseconds, before which ROS did not exist: 1 November 2007."""
 
 
 def _shifted(shift: Shift) -> str:
@@ -209,6 +223,8 @@ def _fine(diagnosis: Diagnosis) -> list[tuple[Area, str]]:
             told.append((area, f"skipped, {reasons.pop()}"))
         elif area is Area.CLOCKS and (shift := diagnosis.model.shift) is not None:
             told.append((area, _shifted(shift)))
+        elif area is Area.CLOCKS and (unset := _unset(diagnosis.model)):
+            told.append((area, unset))
         elif area is Area.CLOCKS and "future-stamp" in noted:
             told.append((area, _latencies(diagnosis.model, area).strip(" ()")))
         elif area is Area.CLOCKS and (off := _far_off(diagnosis.model)):
