@@ -135,6 +135,15 @@ def test_irregular_samples_are_not_counted_as_missing():
     assert "gap" not in ids(made, notes=True)
 
 
+def test_two_publishers_are_given_with_the_rates_of_all_their_samples():
+    made = robot()
+    made.moving("leg", "foot", 20.0, stands, node="/slow")
+    made.moving("leg", "foot", 100.0, lambda t: (0.5, 0.0, 0.0, *NO_TURN), node="/fast")
+    finding = found(made, "publisher-conflict")
+    assert finding.message == ("foot in leg has two sources with different values: /slow and /fast")
+    assert "20 and 100 Hz" in finding.evidence[0]
+
+
 def test_two_nodes_with_two_constant_poses_of_a_frame_are_told():
     for apart, told in ((0.0025, ["publisher-conflict"]), (0.0002, [])):
         made = robot()

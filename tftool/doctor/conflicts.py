@@ -65,7 +65,8 @@ def fed_twice(track: Track, hit: Hit, limits: Limits) -> Hit | None:
     near = np.clip(
         np.searchsorted(track.stamps[resting], track.stamps[moving]), 0, len(resting) - 1
     )
-    told = _conflict(track, ("A", "B"), (moving, resting[near]), Confidence.LIKELY)
+    owned = (moving, resting[near])
+    told = _conflict(track, ("A", "B"), owned, (moving, resting), Confidence.LIKELY)
     text = f"one value {len(resting):,} times, others {len(moving):,} times, by turns"
     facts = {**told.facts, "told": text}
     if not is_revolute(track) and not any("state_publisher" in node for node in track.nodes):
@@ -91,7 +92,7 @@ def named_conflict(model: Model, track: Track, limits: Limits) -> Hit | None:
     for first, second in ((a, b) for i, a in enumerate(named) for b in named[i + 1 :]):
         if publishers[first].node == publishers[second].node:
             continue
-        mine, theirs = places[senders == first], places[senders == second]
+        sent = mine, theirs = places[senders == first], places[senders == second]
         stamps, others = track.stamps[mine], track.stamps[theirs]
         if stamps[0] > others[-1] or others[0] > stamps[-1]:
             # Publishers on two clocks send at the same time, with other stamps.
@@ -117,7 +118,7 @@ def named_conflict(model: Model, track: Track, limits: Limits) -> Hit | None:
             or float(np.median(turned)) > np.radians(turns) + spin
         ):
             names = (publishers[first].node, publishers[second].node)
-            return _conflict(track, names, (mine, nearest), Confidence.CERTAIN)
+            return _conflict(track, names, (mine, nearest), sent, Confidence.CERTAIN)
     return None
 
 
@@ -138,7 +139,7 @@ def values_at_one_stamp(track: Track, limits: Limits) -> Hit | None:
         return None
     owned = (mine[differ], theirs[differ])
     sure = Confidence.LIKELY if count >= limits["samples"] else Confidence.POSSIBLE
-    hit = _conflict(track, ("A", "B"), owned, sure)
+    hit = _conflict(track, ("A", "B"), owned, owned, sure)
     return replace(hit, facts={**hit.facts, "told": f"{hit.count:,} stamps carry two values"})
 
 
@@ -221,7 +222,7 @@ def unnamed_conflict(track: Track, limits: Limits) -> Hit | None:
     for owners in (_follow(track, places, limits), np.arange(len(places)) % 2):
         owned = _alternating(track, places, owners, together, limits)
         if owned is not None:
-            return _conflict(track, ("A", "B"), owned, Confidence.LIKELY)
+            return _conflict(track, ("A", "B"), *owned, Confidence.LIKELY)
     return None
 
 
@@ -245,8 +246,11 @@ _AGAINST = 0.005
 
 def _alternating(
     track: Track, places: Places, owners: Places, single_errors: Floats, limits: Limits
-) -> tuple[Places, Places] | None:
+) -> tuple[tuple[Places, Places], tuple[Places, Places]] | None:
     """Return the samples of two alternating motions; None if one motion explains all samples.
+
+    The first pair is the samples to compare, as in `_conflict`; the second pair is all samples of
+    each motion.
 
     Args:
         track: The edge's samples.
@@ -276,7 +280,7 @@ def _alternating(
     first, second = enough[np.argsort(-counts[enough], kind="stable")][:2].tolist()
     mine, theirs = places[owners == first], places[owners == second]
     near = np.clip(np.searchsorted(track.stamps[theirs], track.stamps[mine]), 0, len(theirs) - 1)
-    return mine, theirs[near]
+    return (mine, theirs[near]), (mine, theirs)
 
 
 def _motion_errors(track: Track, places: Places) -> Floats:
@@ -349,7 +353,11 @@ def _pose_distance(a: list[float], b: list[float]) -> float:
 
 
 def _conflict(
-    track: Track, names: tuple[str, str], owned: tuple[Places, Places], confidence: Confidence
+    track: Track,
+    names: tuple[str, str],
+    owned: tuple[Places, Places],
+    sent: tuple[Places, Places],
+    confidence: Confidence,
 ) -> Hit:
     """Return the hit about two publishers of one edge.
 
@@ -358,12 +366,13 @@ def _conflict(
         names: Names of the publishers.
         owned: Rows of the first publisher's samples, shape (n,), and for each of these samples the
             row of the second publisher's sample to compare with, shape (n,).
+        sent: Rows of all samples of each publisher, in the order of their times.
         confidence: Confidence that there are two publishers.
     """
     rates, late = [], []
-    for places in (owned[0], np.unique(owned[1])):
+    for places in sent:
         stamps = track.stamps[places]
-        lasts = int(stamps[-1] - stamps[0])
+        lasts = int(np.ptp(stamps))
         rates.append((len(stamps) - 1) * NANOSECONDS / lasts if lasts else 0.0)
         late.append(int(np.median(track.latency[places])))
     known = confidence is Confidence.CERTAIN
@@ -406,7 +415,7 @@ def _conflict(
             "worst": float(np.max(apart)),
             "most_turned": float(np.max(turned)),
             "seen": seen,
-            "two": 0 if is_one else 1,
+            "two": 1 if known else 0,
             "so": so,
         },
         fixes=(fix,),
