@@ -493,7 +493,7 @@ def _on_both_clocks(model: Model, streams: Sequence[Track | Heard]) -> str:
         near = np.abs(4 * track.latency) < abs(0 if model.shift is None else model.shift.by)
         if isinstance(track, Track) and np.mean(near) > _BOTH:
             told += (
-                f"; {track.name} has two sources, {np.count_nonzero(near):,} of its samples are "
+                f"; {track.name} is on two clocks: {np.count_nonzero(near):,} of its samples are "
                 "on the clock of the others"
             )
     return told

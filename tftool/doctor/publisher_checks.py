@@ -168,7 +168,10 @@ def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
         if sent_with is track:
             apart.append(track)
         group = f"{sent_with.name} {hit.facts['first']}"
-        if hit.facts["two"] == 0:
+        if (
+            hit.confidence is not Confidence.CERTAIN
+            and len(track.publishers) == len(track.nodes) == 1
+        ):
             group = f"{track.parent} {track.nodes[0]}"
         told_of[track.edge] = replace(hit, alone=False, group=group)
     told_of = _folded(told_of)
@@ -184,7 +187,7 @@ def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
             also = f"{first.facts['told']} (and on {told.topics[0]})"
             hit = replace(first, topics=told.topics, facts={**first.facts, "told": also})
         else:
-            seen = f" (two values at one stamp, on {told.topics[0]})"
+            seen = f" at one stamp, on {told.topics[0]}"
             hit = replace(hit, topics=told.topics, facts={**hit.facts, "seen": seen})
         told_of[told.edge] = hit
     yield from told_of.values()
