@@ -370,6 +370,16 @@ def test_a_network_that_is_gone_for_a_time_is_one_finding(lost):
     assert "outage" not in ids(made)
 
 
+def test_shorter_times_without_arrivals_are_counted_beside_an_outage():
+    made = robot(scans=False)
+    made.hears("/scan", "laser")
+    for begin, end in ((0.5, 1.0), (3.0, 6.0), (6.5, 7.1)):
+        silent(made, begin, end, lost=False)
+    # The last odometry before 0.5 s arrives at 0.485 s, and before 6.5 s at 6.485 s.
+    also = "nothing arrived 2 more times, for up to 615 ms (1.13 s in all)"
+    assert found(made, "outage").evidence[0].endswith(also)
+
+
 @pytest.mark.parametrize("ahead", [0.0, 80.0])
 def test_each_outage_is_told_whatever_the_offset_of_the_clock(ahead):
     """Check two outages in which the lidar's and the odometry's data is lost."""

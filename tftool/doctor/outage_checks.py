@@ -22,10 +22,11 @@ Name = TypeVar("Name")
     "outage",
     Severity.WARNING,
     rule="on half or more of the streams with {hz:g} Hz or more, nothing arrives for more than "
-    "{seconds:g} s and {periods:g} periods. A topic of messages and a transform are among "
-    "these streams. Afterwards the streams go on, with a gap in their stamps or with delayed "
-    "data. A constant difference between the clocks is subtracted first. Or no message at all "
-    "arrives for {again:g} s, {times:g} times, and messages on /clock then arrive in a burst",
+    "{seconds:g} s and {periods:g} periods. A topic of messages and a transform are among these "
+    "streams. Afterwards the streams go on, with a gap in their stamps or with delayed data. A "
+    "constant difference between the clocks is subtracted first. Or no message at all arrives for "
+    "{again:g} s, {times:g} times, and messages on /clock then arrive in a burst. Beside an "
+    "outage, times of {short:g} s or more without arrivals on its streams are counted",
     headline="nothing arrived for {length:span} on {streams} of {of} streams{often}",
     detail="from {begin:moment} to {end:moment} (log times): {names}; {lost}",
     consequence="data stamped in this time arrived late, in a burst, or never",
@@ -33,7 +34,7 @@ Name = TypeVar("Name")
         "a network that was gone",
         "a recorder or a disk that hung",
     ),
-    limits={"seconds": 2.0, "periods": 10, "hz": 1.0, "again": 0.2, "times": 10},
+    limits={"seconds": 2.0, "periods": 10, "hz": 1.0, "again": 0.2, "times": 10, "short": 0.4},
     needs=("log times",),
 )
 def outage(model: Model, limits: Limits) -> Iterator[Hit]:
@@ -65,7 +66,7 @@ def outage(model: Model, limits: Limits) -> Iterator[Hit]:
             "streams": len(worst.streams),
             "of": worst.of,
             "names": [stream.name for stream in worst.streams],
-            "lost": _lost(worst) + also,
+            "lost": _lost(worst) + also + _shorter(worst, outages, limits),
             "often": f", the longest of {len(outages)} outages ({total} in all)" if others else "",
         },
         fixes=(Fix("look at the network and the recorder at that time"),),
@@ -183,6 +184,37 @@ def _lost(outage: _Outage) -> str:
         wide = sum(map(bool, outage.holes))
         lost = f"on {wide} of them data of that time never came (up to {span(max(outage.holes))})"
     return f"{lost}; {several(outage.gone)} never came back" if outage.gone else lost
+
+
+def _shorter(worst: _Outage, outages: list[_Outage], limits: Limits) -> str:
+    """Return a clause about the shorter times without arrivals on the streams of an outage.
+
+    Args:
+        worst: The outage.
+        outages: All outages, which do not count again.
+        limits: Thresholds of `outage`.
+    """
+    logs = np.unique(np.concatenate([stream.logs for stream in worst.streams]))
+    usual = max(int(np.median(np.diff(stream.logs))) for stream in worst.streams)
+    steps = np.diff(logs)
+    short = steps > max(limits["short"] * NANOSECONDS, _MISSED * usual)
+    for one in outages:
+        short &= (logs[1:] <= one.begin) | (logs[:-1] >= one.end)
+    number = int(np.count_nonzero(short))
+    if number < _SEVERAL:
+        return ""
+    total, longest = span(int(steps[short].sum())), span(int(steps[short].max()))
+    return (
+        f"; on all of these streams, nothing arrived {number} more times, for up to {longest} "
+        f"({total} in all)"
+    )
+
+
+_SEVERAL = 2
+"""Minimum number of shorter times that are told."""
+
+_MISSED = 3
+"""Number of periods without a message after which a stream is silent."""
 
 
 def _unique(names: Iterable[Name]) -> tuple[Name, ...]:
