@@ -267,6 +267,21 @@ def test_messages_without_a_frame_name_are_counted_and_name_their_node():
     assert finding.fixes[0].text == "set header.frame_id in /lidar, which publishes /points"
 
 
+def test_all_measurements_without_a_frame_name_are_one_finding():
+    made = robot()
+    for topic, kind in (
+        ("/depth", "geometry_msgs/PoseWithCovarianceStamped"),
+        ("/dvl", "geometry_msgs/TwistWithCovarianceStamped"),
+        ("/command", "geometry_msgs/TwistStamped"),
+    ):
+        made.hears(topic, "", kind=kind)
+    told = [one for one in made.judged().findings if one.id == "empty-frame"]
+    assert [(one.severity, one.topics) for one in told] == [
+        (Severity.WARNING, ("/depth", "/dvl")),
+    ]
+    assert [fix.text.split()[-1] for fix in told[0].fixes] == ["/depth`", "/dvl`"]
+
+
 def test_messages_without_a_stamp_and_a_frame_were_not_meant_for_tf():
     made = robot()
     made.hears("/sent", "", kind="geometry_msgs/PointStamped")

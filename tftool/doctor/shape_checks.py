@@ -264,7 +264,7 @@ def self_transform(model: Model, limits: Limits) -> Iterator[Hit]:
     rule="the name of a frame is empty. The severity is error for a transform, and warning for the "
     "header of a message with a position. It is note for a transform on a topic that tf2 does not "
     "read, for messages without a stamp, and for velocities, accelerations and forces without a "
-    "position",
+    "position. Measurements among these are part of a warning about other messages",
     headline="no frame name in {named}",
     detail="{what}: {detail}, {count:times}",
     consequence="{so}",
@@ -296,20 +296,19 @@ def empty_frame(model: Model, limits: Limits) -> Iterator[Hit]:
                 severity=Severity.ERROR if is_tf else Severity.NOTE,
                 fixes=(_name_it(model, track.topics[0]),),
             )
-    for heard in model.heard:
-        if heard.frame or not (
-            heard.type in JUDGED_EMPTY
-            or heard.type.startswith("nav_msgs/")
-            or (heard.type.endswith("Stamped") and heard.is_spatial)
-        ):
-            continue
+    unnamed = [heard for heard in model.heard if not heard.frame and _needs_frame(heard)]
+    placed = [heard for heard in unnamed if _is_placed(heard)]
+    if placed:  # measurements of the same robot have the same fault
+        placed = [heard for heard in unnamed if heard in placed or _is_measured(heard)]
+    for heard in unnamed:
+        alike = [other for other in unnamed if (other in placed) is (heard in placed)]
         yield Hit(
             topics=(heard.topic,),
             frames=("",),
             since=int(heard.logs[0]) if len(heard.logs) else None,
             count=len(heard.stamps),
-            severity=Severity.WARNING if _is_placed(heard) else Severity.NOTE,
-            fixes=(_name_it(model, heard.topic),),
+            severity=Severity.WARNING if heard in placed else Severity.NOTE,
+            fixes=tuple(_name_it(model, other.topic) for other in alike[:_MOST_FIXES]),
             facts={
                 "what": heard.topic,
                 "named": f"{count(len(heard.stamps), 'message')} on {heard.topic}",
@@ -321,11 +320,26 @@ def empty_frame(model: Model, limits: Limits) -> Iterator[Hit]:
         )
 
 
+_MOST_FIXES = 3
+"""Maximum number of topics without a frame name for which a remedy is printed."""
+
+
+def _needs_frame(heard: Heard) -> bool:
+    """Whether the frame name of a topic's messages matters, judged by their type."""
+    is_pose = heard.type.endswith("Stamped") and heard.is_spatial
+    return heard.type in JUDGED_EMPTY or heard.type.startswith("nav_msgs/") or is_pose
+
+
 def _is_placed(heard: Heard) -> bool:
     """Whether programs look up the place of a topic's messages."""
     # Commands between two nodes have neither a stamp nor a frame.
     is_vector = last_part(heard.type).startswith(("Twist", "Accel", "Wrench", "Vector3"))
     return bool(heard.stamps.any()) and not is_vector
+
+
+def _is_measured(heard: Heard) -> bool:
+    """Whether a topic's messages are measurements, judged by their type."""
+    return heard.type.startswith("sensor_msgs/") or heard.type.endswith("WithCovarianceStamped")
 
 
 def _name_it(model: Model, topic: str) -> Fix:
