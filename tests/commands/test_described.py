@@ -176,9 +176,9 @@ def test_a_recording_takes_the_description_it_lacks(tftool, recording, robot):
 
     assert result.status == 0
     assert "- Rotation: in RPY (radian) [0.000, -0.000, 0.500]" in result.out
-    assert "The robot's description added 2 frames that tf lacks" in result.err
-    assert "joint states move 1 of them" in result.err
-    assert "Robot: 'post' is described" in tftool("info", recording, "--urdf", robot).out
+    assert "The robot's description added 2 frames that are not in tf" in result.err
+    assert "joint states move 1 of these frames" in result.err
+    assert "Robot: description of 'post'" in tftool("info", recording, "--urdf", robot).out
 
 
 @pytest.mark.parametrize(

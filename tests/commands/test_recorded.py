@@ -286,7 +286,10 @@ def test_files_of_a_folder_that_are_no_recordings_are_named_in_a_line(tftool, tm
         result = tftool(words[0], *words[1:], runs)
         assert result.status in (0, 1), result.err
         (line,) = {line for line in result.err.splitlines() if "Ignored" in line}
-        assert line == "Ignored, because not recordings: 'empty.bag' (empty), 'gone', 'junk.bin'."
+        assert (
+            line
+            == "Ignored, because these are not recordings: 'empty.bag' (empty), 'gone', 'junk.bin'."
+        )
     assert "Ignored" not in tftool("tree", whole).err
     for number in range(9):
         (whole / f"{number}.txt").write_text("x", "utf-8")

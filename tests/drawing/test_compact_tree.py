@@ -143,7 +143,7 @@ def test_what_is_wrong_stands_at_the_end_and_its_age_is_amber_then_red():
 
 def test_a_loop_is_told():
     assert any(
-        "a loop: hangs from b" in line
+        "a loop: parent is b" in line
         for line in lines(snapshot(moving("a", "b"), moving("b", "a")))
     )
 

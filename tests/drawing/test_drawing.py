@@ -365,7 +365,7 @@ def test_a_loop_is_drawn_and_said():
     told = words(svg(snapshot(root("w"), link("x", "w"), link("A", "B"), link("B", "A"))))
 
     assert {"A", "B", "w", "x"} <= set(told)
-    assert any(word.startswith("A loop: A hangs from B") for word in told)
+    assert any(word.startswith("A loop: the parent of A is B") for word in told)
 
 
 # pdf

@@ -94,7 +94,7 @@ def test_positions_that_are_not_numbers_are_gaps_in_time(recorded):
 @pytest.mark.parametrize(
     ("names", "positions", "told"),
     [
-        (("turn", "reach"), (1.0,), "with 2 names and 1 positions, which is ignored"),
+        (("turn", "reach"), (1.0,), "with 2 names and 1 positions: the message is ignored"),
         ((), (), "without a joint"),
         (("turn", "turn"), (1.0, 1.0), "that names a joint twice"),
     ],

@@ -109,7 +109,7 @@ def test_what_tf2_refuses_is_left_out_and_told(tmp_path):
     with opened(tmp_path, sent) as recording:
         assert recording.buffer.samples("odom").stamps.tolist() == [start, start + 9]
         assert recording.oddities == {
-            "'odom' moves, but has stamp 0: left out, as 0 means the latest in tf2": 1,
+            "'odom' moves, but has stamp 0, which means the latest in tf2: left out": 1,
             "not a number ('odom' in 'map')": 2,
             "a zero quaternion ('odom' in 'map')": 1,
         }
@@ -124,7 +124,7 @@ def test_of_contradicting_statics_the_last_counts(tmp_path):
 
         assert found.translation == numbers(3)[:3]
         assert recording.oddities == {
-            "'lidar' has 3 different static values: the last value counts": 1
+            "'lidar' has 3 different static values: the last value is used": 1
         }
 
 

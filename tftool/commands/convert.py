@@ -41,7 +41,7 @@ class ConvertOptions(
         "--as",
         metavar="FORM",
     )
-    degrees: bool = flag("Angles are in degrees, in the input and in what --into prints.")
+    degrees: bool = flag("Angles are in degrees, in the input and in the output of --into.")
     then: list[str] | None = option(
         "Append another pose: the result is the pose of the last child in the first parent. "
         "Repeat the option for more poses.",

@@ -78,7 +78,7 @@ LINES: Final = {
         "t.transform.rotation.w": "TODO: t.transform.rotation.w, from pose.theta",
     },
     "turtle_follower": {
-        "found": 'raise TransformException("TODO: look the transform up, as `found`")',
+        "found": 'raise TransformException("TODO: look up the transform; call it `found`")',
         "command.linear.x": "TODO: command.linear.x, half of the distance to the goal",
         "command.angular.z": "TODO: command.angular.z, the direction of the goal",
     },
@@ -93,7 +93,7 @@ LINES: Final = {
         "t.transform.translation.y": "TODO: t.transform.translation.y, likewise",
     },
     "time_traveller": {
-        "found": 'raise TransformException("TODO: look up turtle1 as it was, as `found`")',
+        "found": 'raise TransformException("TODO: look up turtle1 in the past; call it `found`")',
     },
 }
 """Replacement of each key assignment, by node: a comment, or a line if Python needs one."""

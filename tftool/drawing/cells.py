@@ -214,10 +214,10 @@ def runs(cells: Iterable[tuple[str, str]]) -> list[tuple[str, str]]:
 def merged(layers: Sequence[Dots]) -> Dots:
     """Merge several curves into one picture.
 
-    A cell with several curves has the colour of one curve: of a sloping curve if there is one; of
-    several, of the curve with the fewest cells of its own. This order is the same in all cells, so
-    the colour does not alternate. Only where several horizontal curves coincide, dashes in
-    alternating colours show all of them.
+    A cell with several curves has the colour of one of these curves. Sloping curves come before
+    horizontal curves. Among several sloping curves, the curve with the fewest cells of its own
+    comes first. This order is the same in all cells, so the colour does not alternate. Where only
+    horizontal curves coincide, dashes in alternating colours show all of them.
 
     Args:
         layers: The dots of each curve, all of one size; at least one.

@@ -125,7 +125,7 @@ def _changes(one: LinkDifference) -> str:
     words = []
     for change in one.changes:
         if change is Change.reparented and one.after is not None:
-            words.append(f"hangs from {one.after.parent}")
+            words.append(f"new parent {one.after.parent}")
         elif change is Change.kind and one.before is not None and one.after is not None:
             words.append(f"{one.before.kind} → {one.after.kind}")
         elif change is Change.pose:

@@ -99,8 +99,10 @@ def _headline(explanation: Explanation) -> Text:
     if explanation.failed is not None:
         return line
     # A live listener has only the samples received so far; `echo` has the whole recording.
-    line.append("; a robot has only the data received by then")
-    return line.append(", echo has all data and answers" if explanation.in_whole else "")
+    line.append("; a live robot has only the data received so far")
+    return line.append(
+        ", but echo uses the whole recording and succeeds" if explanation.in_whole else ""
+    )
 
 
 def _later(explanation: Explanation) -> str:
@@ -165,7 +167,7 @@ class _Links:
         for number, link in enumerate(found.links):
             if number in left_out and link.edge != found.refusing:
                 if number == left_out[0]:
-                    more = Text(f"… {len(left_out):,} links more …", "dim")
+                    more = Text(f"… {len(left_out):,} more links …", "dim")
                     rows.append((more, *(Text() for _ in rows[0][1:])))
                 continue
             style = "bold" if link.edge == found.refusing else ""

@@ -209,7 +209,10 @@ def _sources(model: Model) -> str:
 
 
 def _fine(diagnosis: Diagnosis) -> list[tuple[Area, str]]:
-    """Return the areas (groups of checks) without a finding, each with "" or a note on skipping."""
+    """Return the areas (groups of checks) without a finding, each with a note, or with "".
+
+    A note says, for example, why the checks of the area were skipped.
+    """
     wrong = {finding.area for finding in diagnosis.findings if finding.is_shown}
     noted = {finding.id for finding in diagnosis.findings if finding.because_of is None}
     skipped = {one.id: one.reason for one in diagnosis.skipped}

@@ -41,9 +41,9 @@ def render(explanation: ChainExplanation) -> RenderableType:
 
 def _position(link: ChainLink) -> str:
     if not link.is_known:
-        return "REFUSES: its pose is not known"
+        return "REFUSES: the pose is unknown"
     if link.position is None:
-        return "holds at all times" if link.joint.type == "fixed" else "at its origin"
+        return "valid at all times" if link.joint.type == "fixed" else "at its origin"
     shown = f"{link.position:.4g} {link.joint.unit}"
     follows = f", follows {link.leader}" if link.leader != link.joint.name else ""
     return f"{shown}{follows}{'' if link.is_given else ', at rest'}"

@@ -69,7 +69,7 @@ def label_text(name: str, age: float, columns: int, least: int, *, ascii_only: b
         name: Name to show.
         age: Seconds since the frame's newest transform.
         columns: Width of the picture in cells.
-        least: Width in cells to which a name is never shortened further.
+        least: Width in cells that a shortened name has at least.
         ascii_only: Whether to write in ASCII only.
     """
     more = "~" if ascii_only else "…"

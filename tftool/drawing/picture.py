@@ -263,10 +263,10 @@ class _Sheet:
         return math.ceil((subject.width + ACROSS_GAP) / self.pitch)
 
     def _below(self, name: str) -> list[tuple[_Card | _Group, str | None]]:
-        """Return the cards and groups below a frame, each with its frame.
+        """Return the cards and groups below a frame, each with a frame's name or None.
 
-        Many leaves form one group. The frame is None for a group, and for the card that shows the
-        number of omitted frames.
+        The name is the name of the card's frame. A group of leaves, and the card that shows the
+        number of omitted frames, have None.
         """
         children = [*self.forest.children[name]]
         if name in self.forest.hidden:
@@ -391,9 +391,9 @@ class _Sheet:
         for name in self.forest.loops:
             parent = self.forest.info[name].parent or ""
             notes.append(
-                f"A loop: {fit(visible(name), FACT_SIZE, 200)} hangs from "
-                f"{fit(visible(parent), FACT_SIZE, 200)}, which is below it; "
-                "that link is not drawn"
+                f"A loop: the parent of {fit(visible(name), FACT_SIZE, 200)} is "
+                f"{fit(visible(parent), FACT_SIZE, 200)}, one of its own descendants; "
+                "the line between them is not drawn"
             )
         return notes
 

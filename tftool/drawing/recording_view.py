@@ -120,13 +120,13 @@ def _robot(recording: Recording, robot: Robot) -> str:
     moving = sum(joint.moves for joint in robot.joints.values())
     found = recording.described or DescribedFrames()
     text = (
-        f"'{visible(robot.name)}' is described: {count(len(robot.links), 'link')}, "
-        f"{count(len(robot.joints), 'joint')}, {moving} of them move"
+        f"description of '{visible(robot.name)}': {count(len(robot.links), 'link')}, "
+        f"{count(len(robot.joints), 'joint')}, {moving} of the joints move"
     )
     if found.still or found.moving:
         text += (
             f"; {count(len(found.still) + len(found.moving), 'frame')} only in the description, "
-            f"{len(found.moving)} of them moved by joint states"
+            f"{len(found.moving)} of these moved by joint states"
         )
     if found.gaps:
         text += f"; {count(len(found.gaps), 'link')} without a frame: {_few(list(found.gaps))}"

@@ -191,7 +191,7 @@ def drawn(
         tinted: Whether the solid under the cursor takes the colour of the cursor.
         plain: Whether to draw for a terminal of few colours. The ground is then a dot at each
             crossing of its grid. On a robot, only the frame under the cursor has axes and a line
-            to the parent frame. A small picture of a robot with many frames is always drawn so.
+            to the parent frame. A small picture of a robot with many frames is always plain.
     """
     width, height = 2 * columns, 4 * rows
     poses = {one.name: one.pose for one in picture.frames}

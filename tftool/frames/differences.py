@@ -230,7 +230,9 @@ def compare(
         shift = second.start - first.start
     elif both_move and (first.start < SIMULATED_BELOW) != (second.start < SIMULATED_BELOW):
         shift = second.start - first.start
-        notes.append("A and B use different clocks: the times of each are counted from its start.")
+        notes.append(
+            "A and B use different clocks: times are counted from the start of A and of B."
+        )
     children = list(dict.fromkeys([*held[0], *held[1]]))
     # An overflowing distance becomes infinite, without a warning.
     with np.errstate(over="ignore", invalid="ignore"):
@@ -276,7 +278,7 @@ def _compared(
     if before.pose is not None and after.pose is not None:
         offset = _static_offset(second.buffer, child, before, after)
     elif Behaviour.joint in (before.kind, after.kind):
-        note = "a joint, whose position is unknown"
+        note = "the pose depends on a joint position, which is unknown"
     else:
         offset, note = _moving_offset(child, first, second, held, shift, before.parent, tolerance)
         if offset is None and not changes:
@@ -360,7 +362,7 @@ def _moving_offset(
         samples: Samples of each frame in the first and in the second set, by frame name.
         shift: Nanoseconds to add to a stamp of the first set to get a stamp of the second.
         parent: Frame in which the displacement is expressed.
-        tolerance: The tolerance, to which differences are compared to find the largest.
+        tolerance: Tolerance; the largest difference is the largest in units of the tolerance.
 
     Returns:
         The displacement in the frame `parent`, and an empty text; or None, and the reason why the
@@ -371,12 +373,12 @@ def _moving_offset(
         return None, APART
     stamps = stamps[:: -(-len(stamps) // MOST_MOMENTS)]
     if not (first.buffer.frame_exists(parent) and second.buffer.frame_exists(parent)):
-        return None, f"the other side has no frame '{parent}'"
+        return None, f"B has no frame '{parent}'"
     old = first.buffer.lookup_transforms(parent, child, stamps, missing="nan")
     new = second.buffer.lookup_transforms(parent, child, stamps + shift, missing="nan")
     both = old.valid & new.valid
     if not both.any():
-        return None, f"at no common time is the frame connected with '{parent}' in both A and B"
+        return None, f"A and B never connect the frame with '{parent}' at the same time"
     old, new, stamps = old[both], new[both], stamps[both]
     millimetres = 1000.0 * np.linalg.norm(new.translations - old.translations, axis=1)
     degrees = np.degrees(batch.angles_between(old.rotations, new.rotations))

@@ -47,8 +47,8 @@ def _described_notes(described: DescribedFrames | None) -> Iterator[str]:
     added = len(described.still) + len(described.moving)
     if added:
         yield (
-            f"The robot's description added {count(added, 'frame')} that tf lacks; joint states "
-            f"move {len(described.moving)} of them."
+            f"The robot's description added {count(added, 'frame')} that are not in tf; joint "
+            f"states move {len(described.moving)} of these frames."
         )
     if described.gaps:
         shown = ", ".join(described.gaps[:5]) + (" …" if len(described.gaps) > 5 else "")

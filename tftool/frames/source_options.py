@@ -25,7 +25,7 @@ class At:
         return self.nanoseconds if self.is_stamp else epoch + self.nanoseconds
 
     def meant(self, epoch: Stamp, end: Stamp) -> str:
-        """Return a sentence that begins with a space if the time was meant as a stamp, else ""."""
+        """Return a hint if the time was probably meant as a stamp, else ""; a space comes first."""
         if self.is_stamp or not epoch <= self.nanoseconds <= end:
             return ""
         since = At(self.nanoseconds - epoch)

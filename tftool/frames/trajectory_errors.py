@@ -192,7 +192,7 @@ def _nearest(a: TransformArray, b: TransformArray) -> tuple[TransformArray, Tran
 
 
 def fitted(a: TransformArray, b: TransformArray, fit: Fit) -> tuple[TransformArray, float]:
-    """Align trajectory `b` with trajectory `a`, whose rows are matched one to one.
+    """Align trajectory `b` with trajectory `a`; row i of `b` matches row i of `a`.
 
     Returns:
         The aligned trajectory `b`, and the factor by which it was scaled.

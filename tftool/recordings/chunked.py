@@ -140,7 +140,8 @@ class Chunk:
     def sound(self) -> bool:
         """Whether the chunk's content is undamaged, as far as a checksum can show.
 
-        The first thread that calls this computes the checksum, and other threads wait meanwhile.
+        The first thread that reads this property computes the checksum; other threads wait
+        meanwhile.
         """
         if not self._is_examined:
             if self.is_packed:
@@ -398,8 +399,7 @@ class ChunkedReader(File):
         return messages.chosen(np.flatnonzero(is_known))
 
     def _walk(self, chunk: Chunk, *, learns: bool) -> None:
-        """Read all records of a chunk one by one; store the offsets of the messages in
-        `chunk.walked`.
+        """Read a chunk's records one by one; store the messages' offsets in `chunk.walked`.
 
         Args:
             chunk: The chunk.

@@ -115,8 +115,8 @@ def _wanted(needed: int, share: float, unestimated: int) -> int:
 
     Args:
         needed: Minimum number of rows.
-        share: Fraction of the recording read so far, 0 to 1; the rows of the whole are estimated
-            from it.
+        share: Fraction of the recording read so far, 0 to 1, from which the final number of rows is
+            estimated.
         unestimated: Number of rows that may be allocated without an estimate.
     """
     # Extrapolate from the fraction read: copying rows later costs more than memory that is
@@ -176,8 +176,8 @@ class Growing:
 
         Args:
             count: Number of rows that must be free.
-            share: Fraction of the recording read so far, 0 to 1; the rows of the whole are
-                estimated from it.
+            share: Fraction of the recording read so far, 0 to 1, from which the final number of
+                rows is estimated.
             unestimated: Number of rows that may be allocated without an estimate.
 
         Returns:
@@ -291,7 +291,7 @@ class Table:
         return MOST_EDGES - len(self._edges)
 
     def make_room(self, edge: Growing, message: int) -> None:
-        """Allocate a row, if none is free, for an edge's next transform, in message `message`."""
+        """Ensure that an edge has a free row for its next transform, from message `message`."""
         self._unestimated -= edge.make_room(1, self.share(message + 1), max(self._unestimated, 0))
 
     def leave_out(self, count: int) -> None:

@@ -226,8 +226,9 @@ class Piece:
     def copy_to(self, file: int, place: int, crc: int | None = None) -> int:
         """Copy the bytes to another file, and read the copy back to verify the bytes.
 
-        Copying 2 GB in this way took 1.1 times as long as with `copy_file_range`, which is slow
-        if source and destination begin at different offsets within a memory page.
+        For 2 GB, this took 1.1 times as long as `copy_file_range`. That function is not used
+        because it is slow if source and destination begin at different offsets within a memory
+        page.
 
         Args:
             file: Descriptor of the other file, open for writing and reading.

@@ -137,7 +137,7 @@ def _read_lz4(packed: bytes, room: memoryview) -> bool:
 def _lz4_functions() -> tuple[Any, Any, Any] | None:
     """Return the C functions in the package `lz4` that create a context, decompress, and free.
 
-    None is returned if they are not accessible: other builds of the package may hide them.
+    Return None if the functions are not accessible: other builds of the package may hide them.
     """
     try:
         path = import_module("lz4.frame._frame").__file__
@@ -158,8 +158,8 @@ def _lz4_functions() -> tuple[Any, Any, Any] | None:
 class Coming:
     """A chunk that is being decompressed, or waits to be decompressed.
 
-    The first thread that calls `unpack` decompresses the chunk. Two locks replace a future of
-    `concurrent.futures`, which made reading an lz4 recording 4 % slower.
+    The first thread that calls `unpack` decompresses the chunk. The class uses two locks, because a
+    future of `concurrent.futures` made reading an lz4 recording 4 % slower.
 
     Attributes:
         room: Memory for the result.

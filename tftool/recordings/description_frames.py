@@ -158,7 +158,7 @@ def _template(payload: bytes, *, is_cdr: bool) -> _Template:
     end = begin + 8 * positions
     problem = ""
     if positions != count:
-        problem = f"with {count} names and {positions} positions, which is ignored"
+        problem = f"with {count} names and {positions} positions: the message is ignored"
     elif not count:
         problem = "without a joint"
     elif len(set(names)) != count:

@@ -214,7 +214,7 @@ class Found:
         names = ", ".join(map(_said, self.passed_over[:_MOST_NAMES]))
         more = len(self.passed_over) - _MOST_NAMES
         beside = f" and {more} more" if more > 0 else ""
-        return [f"Ignored, because not recordings: {names}{beside}."]
+        return [f"Ignored, because these are not recordings: {names}{beside}."]
 
 
 def _said(path: Path) -> str:
@@ -266,7 +266,7 @@ def find(word: str) -> Found:
             if word.startswith(("ws://", "wss://")):
                 raise InputError(
                     f"'{word}' is a robot's Foxglove server, but a file is needed: "
-                    f"'tftool record -o run.mcap {word}' writes one."
+                    f"'tftool record -o run.mcap {word}' records a file."
                 )
             if is_url(word):
                 raise InputError(
@@ -293,7 +293,7 @@ def find(word: str) -> Found:
 
 
 def _kind_with_options(word: str, path: Path) -> Kind:
-    """Return the kind of a file, after a check that only a pose file has options of pose files.
+    """Return the kind of a file; refuse options of pose files for any other file.
 
     Raises:
         UsageError: If a file of another kind has options of pose files.

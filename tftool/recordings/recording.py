@@ -254,7 +254,9 @@ class Recording:
         for child in {**moving, **static}:
             kinds = [kind[child] for kind in (moving, static) if child in kind]
             if len(kinds) > 1:
-                oddities[f"'{child}' is sent as static and as moving: the last kind counts"] += 1
+                oddities[
+                    f"'{child}' is sent both as static and as moving: the kind sent last is used"
+                ] += 1
                 # In tf2 a frame is static or moving: the kind received last removes the other.
                 kinds.sort(key=lambda edges: max(map(_last, edges)))
             for edges in kinds:
@@ -446,7 +448,7 @@ def _set_moving(
     if later and adopt_records(buffer, edge.parent, edge.child, records, authority, edge.kept):
         return
     if not stamps.all():
-        text = f"'{edge.child}' moves, but has stamp 0: left out, as 0 means the latest in tf2"
+        text = f"'{edge.child}' moves, but has stamp 0, which means the latest in tf2: left out"
         oddities[text] += len(edge) - int(np.count_nonzero(stamps))
         records = records[stamps != 0]
     report = buffer.set_records(edge.parent, edge.child, records, authority)
@@ -459,7 +461,7 @@ def _set_moving(
 def _set_static(
     buffer: Buffer, transforms: Transforms, edges: list[Edge], oddities: "Counter[str]"
 ) -> None:
-    """Insert the last static transform of a child; count its other values in `oddities`."""
+    """Insert the last static transform of a child; report differing values in `oddities`."""
     edge = max(edges, key=_last)
     authority = transforms.publishers[int(transforms.senders[edge.messages[-1]])].authority
     x, y, z, qx, qy, qz, qw = edge.records[-1].view(np.float64)[1:].tolist()
@@ -471,7 +473,7 @@ def _set_static(
         return
     values = sum(len(np.unique(one.records[:, 1:], axis=0)) for one in edges)
     if values > 1:
-        text = f"'{edge.child}' has {values} different static values: the last value counts"
+        text = f"'{edge.child}' has {values} different static values: the last value is used"
         oddities[text] += 1
 
 

@@ -193,7 +193,7 @@ class RollingRecording:
             self._keep_static(channel, payload)
 
     def _forget(self, now: Stamp) -> None:
-        """Drop messages older than the ring buffer's duration, and the oldest above its size."""
+        """Drop the oldest messages until the ring buffer is within its duration and its size."""
         held, oldest = self._held, now - self._limits.ring
         while held and (held[0].log_time < oldest or self._held_bytes > MOST_HELD):
             self._held_bytes -= len(held.popleft().payload)

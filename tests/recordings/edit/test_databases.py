@@ -64,7 +64,7 @@ def test_a_database_with_other_files_beside_it_is_copied_as_well(database, tmp_p
 
     report = edit([str(folder)], out, Edits(poses={("base_link", "laser"): NEW_POSE}))
 
-    assert report.notes == ["Ignored, because not recordings: 'notes.txt'."]
+    assert report.notes == ["Ignored, because these are not recordings: 'notes.txt'."]
     with closing(sqlite3.connect(out)) as base:
         assert base.execute("select text from notes").fetchall() == [("wheels changed",)]
 

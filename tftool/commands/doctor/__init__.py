@@ -58,7 +58,7 @@ class DoctorOptions(Command, looks_only=True, urdf=True):
         "Lowest severity of a finding at which the exit status is 1.", default=FailOn.warning
     )
     baseline: Path | None = option(
-        "Fail only for findings that this earlier report, made with --json, does not contain.",
+        "Fail only for new findings, which are not in this earlier report (made with --json).",
         metavar="OLD.json",
     )
     limits: list[str] | None = option(

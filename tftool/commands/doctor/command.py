@@ -92,7 +92,7 @@ def _identity(row: Mapping[str, Any]) -> str:
 
 def _no_report(path: Path, what: str) -> InputError:
     return InputError(
-        f"'{visible(str(path))}' {what}: make one with 'tftool doctor FROM --json > OLD.json'."
+        f"'{visible(str(path))}' {what}: make a report with 'tftool doctor FROM --json > OLD.json'."
     )
 
 

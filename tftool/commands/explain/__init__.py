@@ -35,7 +35,7 @@ class ExplainOptions(Command, looks_only=True, recordings=True, descriptions=Tru
     at: AtOption = None
     message: str = option(
         "Look up at the stamp of a message of this topic, with the data received until the message "
-        "arrived: the message nearest to MOMENT or --at; without a time, the first message.",
+        "arrived. The message nearest to MOMENT or --at is used; without a time, the first.",
         default="",
         metavar="TOPIC[@MOMENT]",
     )

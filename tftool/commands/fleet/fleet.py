@@ -452,7 +452,7 @@ def summary(counts: dict[str, int]) -> str:
 
 
 def announce(counts: dict[str, int], earlier: dict[str, int], output: Path) -> None:
-    """Print the number of recordings by outcome: processed now (`counts`), before (`earlier`)."""
+    """Print the number of recordings by outcome, in this run (`counts`) and before (`earlier`)."""
     total = sum(counts.values())
     passed = sum(earlier.values())
     over = f" ({passed:,} were in the file already: {summary(earlier)})" if passed else ""

@@ -99,11 +99,11 @@ class RowFile:
             self._file.write(self._table([self._columns]))
 
     def holds(self, source: str) -> bool:
-        """Return whether the file already had rows of a recording at opening."""
+        """Return whether the file had rows of a recording when the file was opened."""
         return bool(self.earlier(source))
 
     def earlier(self, source: str) -> list[Row]:
-        """Return the rows of a recording that the file already had at opening; else an empty list.
+        """Return the rows of a recording that the file had when it was opened; [] without rows.
 
         Each row has at least the columns named in `outcome_columns`.
         """
@@ -113,7 +113,7 @@ class RowFile:
         )
 
     def _held(self) -> Iterator[Row]:
-        """Yield the rows that the file has at opening, with at least `outcome_columns`.
+        """Yield the rows that the file has when it is opened, with at least `outcome_columns`.
 
         An incomplete last line is removed from the file.
         """

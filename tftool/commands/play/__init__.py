@@ -62,7 +62,7 @@ class PlayOptions(Command, recordings=True):
     everything: bool = flag(
         "Also publish all other topics whose type is known, with the recorded stamps.", "--all"
     )
-    force: bool = flag(f"Over {ROBOTS}: play even if /tf already has publishers.")
+    force: bool = flag(f"With {ROBOTS}: play even if /tf already has publishers.")
     run_for: RunFor = None
     ascii_only: Ascii = False
     light: Light = False

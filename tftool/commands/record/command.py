@@ -158,7 +158,7 @@ def tell(rolling: RollingRecording, recorder: Recorder) -> None:
     for name in recorder.missing:
         notice(f"'{visible(name)}' was never published.")
     if not rolling.transforms:
-        notice("No transform arrived: check with 'tftool monitor' whether one is published.")
+        notice("No transform arrived: check with 'tftool monitor' what is published.")
 
 
 _SIZE = re.compile(r"(\d+(?:\.\d+)?)\s*([kMG]?)(?:i?B)?", re.ASCII)

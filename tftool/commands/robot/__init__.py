@@ -1,4 +1,4 @@
-"""Command `tftool robot`: publish a robot description, whose joints the keys move."""
+"""Command `tftool robot`: publish a robot description, and move its joints by keys."""
 
 from pathlib import Path
 

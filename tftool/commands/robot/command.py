@@ -1,4 +1,4 @@
-"""Implementation of `tftool robot`: publish a robot description, whose joints the keys move."""
+"""Implementation of `tftool robot`: publish a robot description, and move its joints by keys."""
 
 import sys
 from collections.abc import Mapping, Sequence

@@ -103,10 +103,20 @@ def _own_words(words: Sequence[str]) -> list[str]:
 def _run_other(
     connection: Connection, target: str, words: list[str], *, refused: bool
 ) -> int | None:
-    """Run the tftool command that replaces a ROS program, if any; return its exit status or None.
+    """Run the tftool command that replaces a ROS program; return its exit status.
+
+    Args:
+        connection: Connection of the command.
+        target: File or package on the command line.
+        words: Words after the file or package.
+        refused: Whether options were given that only nodes accept.
+
+    Returns:
+        The exit status; None if no command replaces this program.
 
     Raises:
-        UsageError: If there is such a command, but options for nodes were given (`refused`).
+        UsageError: If a command replaces the program, but options that only nodes accept were
+            given.
     """
     if (target, *words[:1]) == KEYBOARD:
         if refused:

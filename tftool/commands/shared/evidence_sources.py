@@ -52,7 +52,7 @@ def evidence_from(
     is_recording = kind is not None and kind.is_recording
     if not is_recording and (scope.tf_topics or scope.begin is not None or scope.end is not None):
         raise UsageError(
-            "--tf-topic, --from and --to are only allowed for recordings: leave them out."
+            "--tf-topic, --from and --to are only allowed for recordings: leave out these options."
         )
     if kind is Kind.DESCRIPTION:
         shown = visible(word or "")

@@ -323,7 +323,7 @@ def tell_where_to_look(connection: Connection, session: Session) -> None:
 
 
 def _hosted(play: "Play", head_start: Duration, link: "Link | None") -> Session:
-    """Return a session that hosts a scenario, even beyond the end of the scenario's duration."""
+    """Return a session that hosts a scenario, and that continues after the scenario's duration."""
 
     async def alive(until: Stamp | None) -> None:
         with shared(link, play.world):

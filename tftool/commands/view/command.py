@@ -186,7 +186,7 @@ def _hear_description(
 def _tell_missing(shown: ShownRobot) -> None:
     missing = shown.missing
     for sentence in missing[:_MOST_TOLD]:
-        notice(f"A box is drawn for a mesh: {visible(sentence)}.")
+        notice(f"A box is drawn in place of a mesh: {visible(sentence)}.")
     if len(missing) > _MOST_TOLD:
         notice(f"... and for {len(missing) - _MOST_TOLD} more.")
 

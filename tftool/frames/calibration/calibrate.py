@@ -242,8 +242,8 @@ class _Solver:
                 _, names = _swapped(b, names)
                 turned = True
                 notes.append(
-                    f"The second motion was inverted: only {names[0][1]} in {names[1][1]} fits "
-                    "the first."
+                    f"The second motion was inverted: only the poses of {names[0][1]} in "
+                    f"{names[1][1]} fit the first motion."
                 )
         self.progress(2, 8)
         fit, length = self._best(problem, start, shown)
@@ -302,7 +302,7 @@ class _Solver:
         return np.array(self.published.rotation)
 
     def _along(self, shift: Floats, axis: Floats) -> Floats:
-        """Replace a translation's component along `axis` by that of the published mount.
+        """Replace a translation's component along `axis` by this component of the published mount.
 
         Without a published mount, the component becomes 0.
         """
@@ -337,7 +337,10 @@ class _Solver:
         return best[1], best[2]
 
     def _judged(self, pairs: MotionPairs, fit: Fit, shown: _Shown) -> _Shown:
-        """Return `shown`, or the parts that one axis determines if a second axis is only noise."""
+        """Return `shown`, unless the second axis of rotation is only noise.
+
+        In that case, return the parts that the first axis determines.
+        """
         if shown.axis is not None:
             return shown
         values, vectors = np.linalg.eigh(pairs.turns_a.T @ pairs.turns_a / len(pairs.turns_a))

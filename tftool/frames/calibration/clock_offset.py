@@ -78,7 +78,7 @@ def clock_offset(a: TransformArray | Frames, b: TransformArray | Frames) -> Cloc
         a: The first motion: poses over time, or frames that form a single chain.
         b: The second motion, on any clock.
 
-    The moving frames are on one rigid body. The fixed frames and the size of the offset are free.
+    The moving frames must be on one rigid body. The fixed frames and the offset may be arbitrary.
 
     Raises:
         InputError: If the frames of an input are not a single chain.
@@ -89,7 +89,7 @@ def clock_offset(a: TransformArray | Frames, b: TransformArray | Frames) -> Cloc
 
 
 def path_of(frames: TransformArray | Frames) -> TransformArray:
-    """Return the given poses, or for opened frames the poses of the chain's last frame in its root.
+    """Return poses unchanged; for opened frames, the poses of a chain's last frame in its root.
 
     Raises:
         InputError: If the frames are not a single chain.

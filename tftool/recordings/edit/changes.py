@@ -112,7 +112,7 @@ class Edits:
         """Return the new value of a stamp; --shift leaves 0 ("no stamp") unchanged.
 
         Raises:
-            InputError: If --shift makes a stamp that ROS cannot store, or 0.
+            InputError: If --shift turns a stamp into 0, or into a stamp that ROS cannot store.
         """
         old = log_time if self.restamp else stamp
         if not self.shift or not old:
@@ -388,7 +388,7 @@ class Changer:
         return self.edited(old, log_time, static=static) if edits.links or self._replaced else old
 
     def edited(self, old: TransformRow, log_time: Stamp, *, static: bool) -> TransformRow | None:
-        """Return a transform after all changes but --from and --to; None if the edit drops it."""
+        """Return a transform after all changes except --from and --to; None if it is dropped."""
         edits = self._edits
         link = stripped(old.parent), stripped(old.child)
         if any(fits(link, wanted) for wanted in edits.drop):

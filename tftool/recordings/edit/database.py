@@ -30,7 +30,7 @@ Change = Callable[[MessageTable, Mapping[int, Channel]], MessageTable]
 
 
 class Unsound(Exception):
-    """Exception for a damaged copy of a database, whose rows must be read one by one instead."""
+    """Exception for a damaged copy of a database; another reader must read the rows one by one."""
 
 
 class EditedDatabase:
@@ -182,7 +182,7 @@ class EditedDatabase:
                 digest_table(found, table, self.channels, self.container)
         if found != self._wanted:
             raise InputError(
-                f"'{self.path}' was not written correctly: its rows differ from those to write."
+                f"'{self.path}' was not written correctly: some rows have the wrong content."
             )
 
     def finish(self) -> None:

@@ -125,7 +125,9 @@ class StaticHeads:
             ]
 
     def write(self, number: int, output: EditedFile, start: Stamp) -> None:
-        """Write every static transform, as of the end of the file, in one message per channel.
+        """Write the static transforms at the start of an output file, in one message per channel.
+
+        For each child, the transform that is valid at the end of the file is written.
 
         Args:
             number: Index of the output file, from 0.

@@ -182,7 +182,7 @@ class EditedFile:
         return found
 
     def _fits(self, input_number: int, reader: ContainerReader) -> bool:
-        """Whether chunks of an input can be copied: all channel numbers are the same here."""
+        """Whether an input's chunks can be copied: its channels have the same numbers here."""
         found = self._compatible.get(input_number)
         if found is None:
             found = reader.container == self.container and (
@@ -192,7 +192,7 @@ class EditedFile:
         return found and self._chunks is not None
 
     def _agrees(self, reader: ContainerReader) -> bool:
-        """Whether all channel numbers of an input are unused or mean the same in this file."""
+        """Whether this file has the same channel or none under each channel number of an input."""
         if self._chunks is None or self._extra or not isinstance(reader, ChunkedReader):
             return False
         channels = reader.channels.items()
@@ -298,7 +298,7 @@ class EditedFile:
             self.end = max(self.end, chunk.end)
 
     def closed_block(self, block: Block) -> None:
-        """Write the current chunk in place of an input's `block`, with the same compression."""
+        """Write the current chunk with the compression of `block`, which the chunk replaces."""
         if (
             self._chunks is not None
             and isinstance(block, Chunk)

@@ -347,7 +347,7 @@ def _reparenting(edits: Edits, recordings: Sequence[Recording]) -> Reparenting |
 def _widened(moments: "np.ndarray", low: Stamp, high: Stamp) -> tuple[Stamp, Stamp]:
     """Widen the time span from `low` to `high` to the nearest times in `moments` outside the span.
 
-    Interpolation at `low` and `high` needs the samples at these times.
+    Interpolation at `low` and `high` needs the samples at the new ends.
     """
     before, behind = moments[moments <= low], moments[moments >= high]
     first = int(before.max()) if len(before) else low

@@ -42,7 +42,7 @@ class Result:
 
 @dataclass(slots=True)
 class MessageKind:
-    """Kind of messages, which have the same frames and differ only in stamps and numbers.
+    """Group of messages that have the same frames, and differ only in stamps and numbers.
 
     Attributes:
         places: Byte offsets of the transforms.

@@ -429,7 +429,7 @@ class Mcap(ChunkedReader):
             self.extras.metadata.append(self.at(position + 9, length))
 
     def _take_attachment(self, position: int, length: int) -> None:
-        """Add the byte range of an attachment, which can be larger than the memory, to `extras`."""
+        """Add an attachment to `extras` as a byte range: its bytes may not fit into memory."""
         body = position + 9
         # Two times of 8 bytes, then name and media type, then the size of the data.
         place = body + 16

@@ -79,7 +79,7 @@ def _images(file: PoseFile, images: list[tuple[str, list[float]]], width: int) -
 
 
 def read_kalibr(file: PoseFile) -> list[PoseLink]:
-    """Return the links in kalibr's camchain.yaml, from IMU or previous camera to each camera."""
+    """Return the links in kalibr's camchain.yaml: cameras in the IMU or the previous camera."""
     document = _yaml(file)
     cameras = sorted((name for name in document if _is_camera(name)), key=lambda one: int(one[3:]))
     links = []

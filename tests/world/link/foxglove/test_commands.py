@@ -111,7 +111,7 @@ def test_contradictions_and_publishing_are_refused(tftool, words, sentence):
 def test_a_file_is_not_an_address(tftool):
     refused = tftool("edit", "ws://robot:8765", "-o", "x.mcap")
     assert refused.status == 3
-    assert "'tftool record -o run.mcap ws://robot:8765' writes one" in refused.err
+    assert "'tftool record -o run.mcap ws://robot:8765' records a file" in refused.err
 
 
 def test_passwords_and_tokens_of_an_address_are_not_shown(tftool):
