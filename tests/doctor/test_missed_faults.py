@@ -144,6 +144,35 @@ def test_two_publishers_are_given_with_the_rates_of_all_their_samples():
     assert "20 and 100 Hz" in finding.evidence[0]
 
 
+def twice(apart: float, speed: float = 0.0, copies: int = 2) -> Robot:
+    """Return a robot whose software runs twice, with odometry that differs by some metres."""
+    made = robot(odometry=False)
+    for tick in range(80):
+        for copy in range(2):
+            at = 0.1 * tick + 0.04 * copy
+            x = speed * at + 0.0001 * (tick % 3)
+            made.sent("odom", "base_link", at, (x + apart * copy, 0.0, 0.0, *NO_TURN))
+        for _ in range(copies):
+            made.sent("base_link", "arm", 0.1 * tick, (0.0, 0.0, 0.3, *turned(0.01 * tick)))
+    return made
+
+
+@pytest.mark.parametrize(
+    ("apart", "speed", "told"), [(0.03, 0.0, 1), (0.004, 0.0, 0), (0.03, 0.5, 0)]
+)
+def test_two_tracks_of_a_robot_that_rests_may_be_near_each_other(apart, speed, told):
+    assert ids(twice(apart, speed)) == ["publisher-conflict"] * told
+
+
+@pytest.mark.parametrize("copies", [1, 2])
+def test_other_transforms_that_are_sent_twice_suggest_a_second_start(copies):
+    finding = found(twice(0.03, copies=copies), "publisher-conflict")
+    assert finding.message == "base_link in odom has two different values, by turns"
+    is_told = "arm in base_link: sent twice, with equal values" in finding.evidence[0]
+    assert is_told is (copies == 2)
+    assert ("started twice" in finding.fixes[-1].text) is (copies == 2)
+
+
 def test_two_nodes_with_two_constant_poses_of_a_frame_are_told():
     for apart, told in ((0.0025, ["publisher-conflict"]), (0.0002, [])):
         made = robot()

@@ -10,7 +10,7 @@ from tftool.base.stamps import CACHE_TIME, NANOSECONDS
 from tftool.doctor.findings import Confidence, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_stream import Mask, Places, Track, last_part
-from tftool.doctor.wording import span
+from tftool.doctor.wording import several, span
 from tftool.geometry.quaternions import angle_between
 from tftool.geometry.rigid_arrays import (
     Floats,
@@ -20,6 +20,7 @@ from tftool.geometry.rigid_arrays import (
     rotation_vectors,
     unit,
 )
+from tftool.recordings.contract import percentile
 
 MOST_FOLLOWED = 20_000
 """Maximum number of an edge's samples that are followed one by one; these are enough evidence."""
@@ -143,6 +144,31 @@ def values_at_one_stamp(track: Track, limits: Limits) -> Hit | None:
     return replace(hit, facts={**hit.facts, "told": f"{hit.count:,} stamps carry two values"})
 
 
+def with_doubled(model: Model, track: Track, hit: Hit) -> Hit:
+    """Add the edges of other messages that are sent twice, with equal values, to a conflict.
+
+    If the whole software of a robot runs twice, both copies compute these edges from one source.
+    """
+    others = (t for t in model.dynamic if not np.isin(t.messages, track.messages).any())
+    doubled = [other.name for other in others if _is_doubled(other)]
+    if not doubled or hit.confidence is Confidence.CERTAIN:
+        return hit
+    told = f"{hit.facts['told']}; {several(doubled, 3)}: sent twice, with equal values"
+    fix = Fix("look whether the robot's software was started twice")
+    return replace(hit, facts={**hit.facts, "told": told}, fixes=(*hit.fixes, fix))
+
+
+def _is_doubled(track: Track) -> bool:
+    """Whether half of an edge's stamps occur twice, or more of them, with equal poses."""
+    again = np.flatnonzero(np.diff(track.sorted_stamps) == 0)
+    different = len(track.steps) + 1
+    # A stamp that does not change is another fault.
+    if not different <= 2 * len(again) <= 2 * different:
+        return False
+    some, others = track.by_stamp[again], track.by_stamp[again + 1]
+    return bool(track.apart(some, others).max() < 1e-6)
+
+
 def is_corrected(track: Track, limits: Limits) -> bool:
     """Whether one publisher corrects its poses: a later pose with the same stamp replaces a pose.
 
@@ -204,6 +230,8 @@ def unnamed_conflict(track: Track, limits: Limits) -> Hit | None:
     if len(places) < max(2 * limits["samples"], 2):
         return None
     apart = track.strides[: len(places) - 1]
+    if (near := _near_tracks(track, places, apart, limits)) is not None:
+        return _conflict(track, ("A", "B"), *near, Confidence.LIKELY)
     # If the edge hardly moves and turns, there cannot be two motions.
     if apart.max() < 0.5 * limits["reach"] and not track.has_turns(
         places[1:], places[:-1], 0.5 * limits["reach"]
@@ -224,6 +252,37 @@ def unnamed_conflict(track: Track, limits: Limits) -> Hit | None:
         if owned is not None:
             return _conflict(track, ("A", "B"), *owned, Confidence.LIKELY)
     return None
+
+
+def _near_tracks(
+    track: Track, places: Places, apart: Floats, limits: Limits
+) -> tuple[tuple[Places, Places], tuple[Places, Places]] | None:
+    """Return the samples of two tracks that are near each other and hardly move; else None.
+
+    Args:
+        track: The edge's samples.
+        places: Rows of the samples in the order of their stamps, shape (n,).
+        apart: Distance from each sample to the next, metres, shape (n - 1,).
+        limits: The thresholds.
+
+    Returns:
+        Two pairs, as of `_alternating`.
+    """
+    far = apart >= limits["near"]
+    if np.count_nonzero(far) < max(limits["near_changes"], len(apart) // 2):
+        return None
+    changes = apart >= max(limits["near"], 0.5 * float(np.median(apart[far])))
+    owners = np.append(0, np.cumsum(changes)) % 2
+    mine, theirs = places[owners == 0], places[owners == 1]
+    if min(len(mine), len(theirs)) < limits["near_share"] * len(places):
+        return None
+    after = np.searchsorted(track.stamps[theirs], track.stamps[mine])
+    nearest = theirs[np.clip(after, 0, len(theirs) - 1)]
+    steps = [track.apart(own[1:], own[:-1]) for own in (mine, theirs)]
+    usual = percentile(np.concatenate(steps), 95)
+    if float(np.median(track.apart(mine, nearest))) < limits["near_times"] * usual:
+        return None
+    return (mine, nearest), (mine, theirs)
 
 
 def _turns_one_way(track: Track, places: Places) -> bool:

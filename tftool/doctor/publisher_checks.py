@@ -17,6 +17,7 @@ from tftool.doctor.conflicts import (
     severity_of,
     unnamed_conflict,
     values_at_one_stamp,
+    with_doubled,
 )
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
@@ -92,17 +93,19 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
     Severity.ERROR,
     rule="two publishers with at least {least:g} samples each send a transform at the same time, "
     "and their values differ by more than {metres:g} m (or {degrees:g}°) plus the usual step "
-    "between two samples. If each publisher has one pose, {mounts:g} m (or {mount_degrees:g}°) are "
-    "enough. If the publishers are unknown, one of two patterns counts. First, {stamps:g} "
+    "between two samples. If each publisher has one pose, {mounts:g} m (or {mount_degrees:g}°) "
+    "are enough. If the publishers are unknown, one of two patterns counts. First, {stamps:g} "
     "stamps or more have two values that differ so much, and one of the values interrupts the "
-    "motion of the other. Second, the samples alternate between two tracks; a sample belongs "
-    "to a track within {reach:g} m + {speed:g} m/s, where a radian counts as half a metre. "
-    "Each track needs {samples:g} samples and a share of {share:g}, the track must change "
-    "{changes:g} times or more, and motion at constant velocity must explain all samples "
-    "{worse:g} times worse than each track alone. A note for a frame that only turns, unless "
-    "one value returns again and again. A warning if the publishers are unknown, if no frame "
-    "is below this frame and no message is in it, or for a mount whose two values differ by "
-    "less than {slight:g} m and {slight_degrees:g}°",
+    "motion of the other. Second, the samples alternate between two tracks; a sample belongs to a "
+    "track within {reach:g} m + {speed:g} m/s, where a radian counts as half a metre. Each track "
+    "needs {samples:g} samples and a share of {share:g}, the track must change {changes:g} times "
+    "or more, and motion at constant velocity must explain all samples {worse:g} times worse than "
+    "each track alone. Tracks of a frame that hardly moves may be nearer: half of the steps and "
+    "{near_changes:g} or more are {near:g} m or longer, each track has a share of {near_share:g}, "
+    "and the tracks are {near_times:g} times as far apart as 95 % of the steps in them. A note "
+    "for a frame that only turns, unless one value returns again and again. A warning if the "
+    "publishers are unknown, if no frame is below this frame and no message is in it, or for a "
+    "mount whose two values differ by less than {slight:g} m and {slight_degrees:g}°",
     headline="{named} {many:has|have} two {two:sources with |}different values{seen}",
     detail="{edge}: {first} and {second}, {told}, {apart:m} and {turned:deg} apart (median), "
     "{worst:m} and {most_turned:deg} at most",
@@ -133,6 +136,10 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
         "worse": 2.0,
         "slight": 0.05,
         "slight_degrees": 2.0,
+        "near": 0.005,
+        "near_changes": 20,
+        "near_share": 0.4,
+        "near_times": 5.0,
         "mounts": 0.0005,
         "mount_degrees": 0.06,
     },
@@ -150,8 +157,9 @@ def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
             continue
         hit = named_conflict(model, track, limits) if model.has_named_publishers else None
         hit = hit or values_at_one_stamp(track, limits)
-        if hit is None and not is_corrected(track, limits):
-            hit = unnamed_conflict(track, limits)
+        is_open = hit is None or hit.confidence is Confidence.POSSIBLE
+        if is_open and not is_corrected(track, limits):
+            hit = unnamed_conflict(track, limits) or hit
         if hit is None:
             continue
         fed = fed_twice(track, hit, limits)
@@ -173,7 +181,7 @@ def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
             and len(track.publishers) == len(track.nodes) == 1
         ):
             group = f"{track.parent} {track.nodes[0]}"
-        told_of[track.edge] = replace(hit, alone=False, group=group)
+        told_of[track.edge] = replace(with_doubled(model, track, hit), alone=False, group=group)
     told_of = _folded(told_of)
     odometry = model.evidence.odometry
     for told in () if odometry is None else [Track(edge, odometry) for edge in odometry.edges]:
