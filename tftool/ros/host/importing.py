@@ -23,7 +23,7 @@ from tftool.base.errors import UsageError
 from tftool.messages.classes import INTERFACES
 from tftool.ros.host import fibers, import_table
 from tftool.ros.host.error_text import missing_module, missing_name
-from tftool.ros.host.shims import IMPORTING, builtins_for_users
+from tftool.ros.host.shims import BUILTINS_FOR_USERS, IMPORTING
 from tftool.ros.host.workspace import TAKEN, WITH_MODULES
 
 DISTRIBUTION = "jazzy"
@@ -224,10 +224,12 @@ class _Finder(MetaPathFinder):
             return None
         if spec.origin is None and path is None and find(fullname) is not None:
             return None  # A folder without __init__.py is a package only if there is no other.
-        if spec.submodule_search_locations is not None:
+        folders = spec.submodule_search_locations
+        if folders is not None:
             # Copy to a list: Python's own object fails once the parent package is unloaded.
-            spec.submodule_search_locations = list(spec.submodule_search_locations)
-        if not _is_users(_path_of(spec.origin, spec.submodule_search_locations), self.roots):
+            folders = spec.submodule_search_locations = list(folders)
+        file = spec.origin or next(iter(folders or ()), "")
+        if not _is_users(Path(file), self.roots):
             return None
         if isinstance(spec.loader, importlib.machinery.SourceFileLoader):
             spec.loader = _UserLoader(fullname, str(spec.origin))
@@ -271,10 +273,10 @@ def _dotted_test(fullname: str, path: Sequence[str]) -> importlib.machinery.Modu
 
 
 class _UserLoader(importlib.machinery.SourceFileLoader):
-    """Import loader for users' modules, which get the builtins of `builtins_for_users`."""
+    """Import loader for users' modules, which get the builtins of `BUILTINS_FOR_USERS`."""
 
     def exec_module(self, module: ModuleType) -> None:
-        module.__dict__["__builtins__"] = builtins_for_users()
+        module.__dict__["__builtins__"] = BUILTINS_FOR_USERS
         super().exec_module(module)
 
     def set_data(self, path: str, data: Any, *, _mode: int = 0o666) -> None:
@@ -294,7 +296,7 @@ class _TestedLoader(Loader):
         return self._loader.create_module(spec)
 
     def exec_module(self, module: ModuleType) -> None:
-        module.__dict__["__builtins__"] = builtins_for_users()
+        module.__dict__["__builtins__"] = BUILTINS_FOR_USERS
         self._loader.exec_module(module)
 
 
@@ -429,12 +431,9 @@ def _is_theirs(name: str) -> bool:
 
 
 def _file_of(module: ModuleType) -> Path:
-    return _path_of(getattr(module, "__file__", None), getattr(module, "__path__", None))
-
-
-def _path_of(file: str | None, folders: Iterable[str] | None) -> Path:
     """Return the file of a module; for a package without a file, return its first folder."""
-    return Path(file or next(iter(folders or ()), ""))
+    folders = getattr(module, "__path__", None)
+    return Path(getattr(module, "__file__", None) or next(iter(folders or ()), ""))
 
 
 def _is_users(file: Path, roots: Iterable[Path]) -> bool:

@@ -163,54 +163,13 @@ def _set_handler(number: int, handler: Any) -> Any:
 
 
 @cache
-def _shims() -> dict[str, ModuleType]:
-    return {
-        "time": _Shim(
-            time,
-            {
-                "sleep": _sleep,
-                "time": lambda: _now_ns() / NANOSECONDS,
-                "time_ns": _now_ns,
-                "monotonic": lambda: _elapsed_ns() / NANOSECONDS,
-                "monotonic_ns": _elapsed_ns,
-                "perf_counter": lambda: _elapsed_ns() / NANOSECONDS,
-                "perf_counter_ns": _elapsed_ns,
-            },
-        ),
-        "threading": _Shim(
-            threading,
-            {
-                "Thread": UserThread,
-                "Timer": UserTimer,
-                "Event": locks.UserEvent,
-                "Lock": locks.UserLock,
-                "RLock": locks.UserRLock,
-                "Condition": locks.UserCondition,
-                "Semaphore": locks.UserSemaphore,
-                "BoundedSemaphore": locks.UserBoundedSemaphore,
-                "Barrier": locks.UserBarrier,
-            },
-        ),
-        "signal": _Shim(signal, {"signal": _set_handler, "getsignal": _handler_of}),
-        "asyncio": _Shim(
-            asyncio,
-            {
-                "get_event_loop": _get_event_loop,
-                "new_event_loop": _new_event_loop,
-                "run": _run_coroutine,
-            },
-        ),
-    }
-
-
-@cache
 def _queues() -> ModuleType:
     """Return a copy of the module `queue` whose timeouts count seconds of tftool's clock."""
     spec = importlib.util.find_spec("queue")
     if spec is None or spec.loader is None:
         return queue
     module = importlib.util.module_from_spec(spec)
-    module.__dict__["__builtins__"] = builtins_for_users()
+    module.__dict__["__builtins__"] = BUILTINS_FOR_USERS
     spec.loader.exec_module(module)
     # The version in C waits in real time; both versions raise the same exceptions.
     module.__dict__["SimpleQueue"] = module._PySimpleQueue
@@ -229,31 +188,6 @@ def _is_imported(name: str, fromlist: Any) -> bool:
     if module is None or getattr(module.__spec__, "_initializing", False):
         return False
     return all(one in vars(module) for one in fromlist or ())
-
-
-@cache
-def builtins_for_users() -> dict[str, Any]:
-    """Return Python's builtins with a different `print` and `import`.
-
-    A user's module with these builtins imports tftool's versions of time, threading, queue, asyncio
-    and signal.
-    """
-    shims = _shims()
-
-    def import_(
-        name: str, globals: Any = None, locals: Any = None, fromlist: Any = (), level: int = 0
-    ) -> Any:
-        if level == 0 and name in shims:
-            return shims[name]
-        if level == 0 and name == "queue":
-            return _queues()
-        owner = running_program()
-        if owner is not None and owner.strict and not (level == 0 and _is_imported(name, fromlist)):
-            with IMPORTING:
-                return builtins.__import__(name, globals, locals, fromlist, level)
-        return builtins.__import__(name, globals, locals, fromlist, level)
-
-    return {**vars(builtins), "__import__": import_, "print": _print}
 
 
 SLICE: Duration = seconds(0.01)
@@ -326,3 +260,64 @@ def _run_coroutine(main: Coroutine[Any, Any, Any], *, debug: bool | None = None)
         factory = UserEventLoop
     with asyncio.Runner(debug=debug, loop_factory=factory) as runner:
         return runner.run(main)
+
+
+_SHIMS: dict[str, ModuleType] = {
+    "time": _Shim(
+        time,
+        {
+            "sleep": _sleep,
+            "time": lambda: _now_ns() / NANOSECONDS,
+            "time_ns": _now_ns,
+            "monotonic": lambda: _elapsed_ns() / NANOSECONDS,
+            "monotonic_ns": _elapsed_ns,
+            "perf_counter": lambda: _elapsed_ns() / NANOSECONDS,
+            "perf_counter_ns": _elapsed_ns,
+        },
+    ),
+    "threading": _Shim(
+        threading,
+        {
+            "Thread": UserThread,
+            "Timer": UserTimer,
+            "Event": locks.UserEvent,
+            "Lock": locks.UserLock,
+            "RLock": locks.UserRLock,
+            "Condition": locks.UserCondition,
+            "Semaphore": locks.UserSemaphore,
+            "BoundedSemaphore": locks.UserBoundedSemaphore,
+            "Barrier": locks.UserBarrier,
+        },
+    ),
+    "signal": _Shim(signal, {"signal": _set_handler, "getsignal": _handler_of}),
+    "asyncio": _Shim(
+        asyncio,
+        {
+            "get_event_loop": _get_event_loop,
+            "new_event_loop": _new_event_loop,
+            "run": _run_coroutine,
+        },
+    ),
+}
+
+
+def _import(
+    name: str, globals: Any = None, locals: Any = None, fromlist: Any = (), level: int = 0
+) -> Any:
+    if level == 0 and name in _SHIMS:
+        return _SHIMS[name]
+    if level == 0 and name == "queue":
+        return _queues()
+    owner = running_program()
+    if owner is not None and owner.strict and not (level == 0 and _is_imported(name, fromlist)):
+        with IMPORTING:
+            return builtins.__import__(name, globals, locals, fromlist, level)
+    return builtins.__import__(name, globals, locals, fromlist, level)
+
+
+BUILTINS_FOR_USERS = {**vars(builtins), "__import__": _import, "print": _print}
+"""Python's builtins with a different `print` and `import`.
+
+A user's module with these builtins imports tftool's versions of time, threading, queue, asyncio and
+signal.
+"""

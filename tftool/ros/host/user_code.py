@@ -13,7 +13,7 @@ from tftool.base.named_files import open_regular
 from tftool.base.plain_text import did_you_mean
 from tftool.ros.host import importing, program
 from tftool.ros.host.error_text import syntax_sentence
-from tftool.ros.host.shims import builtins_for_users
+from tftool.ros.host.shims import BUILTINS_FOR_USERS
 
 
 def file_body(path: Path) -> Callable[[], None]:
@@ -70,7 +70,7 @@ def load_module(path: Path, name: str = "", code: CodeType | None = None) -> Mod
         importing.search_first(root)
     importing.unload_hidden(folder)
     module.__file__ = str(path)
-    module.__dict__["__builtins__"] = builtins_for_users()
+    module.__dict__["__builtins__"] = BUILTINS_FOR_USERS
     exec(code, module.__dict__)
     return module
 
