@@ -26,7 +26,6 @@ from tftool.ros import running
 from tftool.ros.host import executables
 from tftool.ros.host.importing import ros_free
 from tftool.ros.host.workspace import Workspace, is_file, use_workspace
-from tftool.world.link.session_world import Session
 
 ROBOTS = ("robot_state_publisher", "joint_state_publisher")
 """Packages whose nodes publish a robot."""
@@ -73,26 +72,6 @@ def _check_words(connection: Connection, target: str, words: Sequence[str]) -> N
                 f"'{before} {visible(word)}' is passed to the node unchanged: "
                 "write ROS 2's arguments after --ros-args."
             )
-
-
-def _opened(
-    connection: Connection, scenario: str | None, *, alone: bool, simulated: bool
-) -> Session:
-    """Open the session in which the node runs.
-
-    Args:
-        connection: Connection of the command.
-        scenario: Scenario to host; None for the running session or, if none runs, an empty world.
-        alone: Whether to host an empty world for the node.
-        simulated: Whether a hosted world uses simulated time.
-    """
-    if alone:
-        return open_empty_session(connection, simulated=simulated)
-    if scenario is not None:
-        return open_session(connection, scenario, simulated=simulated, head_start=0)
-    return open_own_session(
-        connection, simulated=simulated, because=SIMULATED if simulated else NO_SESSION
-    )
 
 
 def _own_words(words: Sequence[str]) -> list[str]:
@@ -186,7 +165,14 @@ def run(connection: Connection, options: RunOptions) -> int:
         file = found.executable.file if found.package is not None else None
         if file is not None and (unfound := running.reason_not_found(workspace, file)):
             notice(visible(unfound))
-        session = _opened(connection, options.place, alone=alone, simulated=options.simulated)
+        if alone:
+            session = open_empty_session(connection, simulated=options.simulated)
+        elif options.place is not None:
+            simulated = options.simulated
+            session = open_session(connection, options.place, simulated=simulated, head_start=0)
+        else:
+            because = SIMULATED if options.simulated else NO_SESSION
+            session = open_own_session(connection, simulated=options.simulated, because=because)
         connection.tell_read_only()
         tell_where_to_look(connection, session)
         world = session.world
