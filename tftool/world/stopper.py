@@ -254,11 +254,6 @@ def leave_screen() -> None:
             return
 
 
-def node_task_name(name: str) -> str:
-    """Return the name of a node's tasks, with which the stopper finds the node of a task."""
-    return f"node '{name}'"
-
-
 def abandon(task: "asyncio.Task[Any]") -> None:
     """Stop waiting for a task that ignores its cancellation."""
     _abandoned.add(task)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 from tftool.base.errors import NodeFailed, TftoolError, line_of
 from tftool.base.stamps import Stamp, as_seconds
 from tftool.world.clock import Clock, Phase, SimClock
-from tftool.world.stopper import PATIENCE, Overdue, abandon, line_of_task, node_task_name
+from tftool.world.stopper import PATIENCE, Overdue, abandon, line_of_task
 
 if TYPE_CHECKING:
     from tftool.world.world import World
@@ -223,7 +223,9 @@ class Supervisor:
             resident.close()
 
     def _start(self, resident: Resident, work: Coroutine[Any, Any, T]) -> "asyncio.Task[T]":
-        task = asyncio.get_running_loop().create_task(work, name=node_task_name(resident.name))
+        # The stopper finds the nodes among all tasks by this name.
+        name = f"node '{resident.name}'"
+        task = asyncio.get_running_loop().create_task(work, name=name)
         self._tasks[task] = resident
         # Not by a `finally` in the task, which does not run if the task never starts.
         task.add_done_callback(self._ended)
