@@ -38,7 +38,6 @@ class Node(Resident):
     """
 
     phase: ClassVar[Phase] = Phase.CONSUME
-    _is_passive: ClassVar[bool] = False
 
     def __init__(self, world: World, name: str) -> None:
         """Add the node to a world under a name.
@@ -49,7 +48,7 @@ class Node(Resident):
                 `run`, because other code can publish and subscribe under the node's name.
         """
         kind = type(self)
-        if kind is not Node and not self._is_passive:
+        if kind is not Node:
             if kind.run is Node.run:
                 raise TypeError(
                     f"{kind.__name__} has no 'async def run(self)', so it would do nothing: write "

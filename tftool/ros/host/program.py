@@ -55,16 +55,6 @@ _living: "set[Program]" = set()
 """Programs that are running, in all worlds of this process."""
 
 
-class ProgramNode(Node):
-    """Node of tftool's world for one rclpy node of a user's program."""
-
-    _is_passive: ClassVar[bool] = True
-
-    def __init__(self, program: "Program", name: str) -> None:
-        self.program = program
-        super().__init__(program.world, name)
-
-
 class Program(Node):
     """User's program that runs as a node of tftool's world.
 

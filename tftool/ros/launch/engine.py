@@ -13,7 +13,7 @@ from tftool.base.errors import InputError, TftoolError, UsageError
 from tftool.base.stamps import seconds
 from tftool.ros.host import executables, importing, program
 from tftool.ros.host.error_text import error_sentence
-from tftool.ros.host.program import Program, ProgramNode, exit_status
+from tftool.ros.host.program import Program, exit_status
 from tftool.ros.host.workspace import Workspace
 from tftool.ros.launch import commands
 from tftool.ros.launch.arguments import declared_arguments, refuse_unknown
@@ -607,7 +607,7 @@ class Launch(Node):
         """Return the name, in the launch's log lines, of the program that wrote a log record."""
         if record.program:
             return record.program
-        for node in self.world.nodes:
-            if isinstance(node, ProgramNode) and node.name == record.node:
-                return node.program.label
+        for one in self.world.nodes:
+            if isinstance(one, Program) and record.node in (node.authority for node in one.nodes):
+                return one.label
         return self.labels.get(record.node, "launch")

@@ -11,7 +11,7 @@ from tftool.ros.host import values
 from tftool.ros.rclpy.entities import Requester
 from tftool.ros.rclpy.executors import wait_for
 from tftool.ros.rclpy.futures import Future
-from tftool.ros.rclpy.node_state import state_of
+from tftool.ros.rclpy.node_state import NodeState, state_of
 from tftool.world.action_parts import ENDED, goal_id_message
 from tftool.world.topics import GoalHandle as WorldGoal
 
@@ -97,7 +97,7 @@ class ActionClient(Requester):
         self.full = state.full(action_name)
         state.keep(self._join)
 
-    def _join(self) -> "ActionClient":
+    def _join(self, _: NodeState) -> "ActionClient":
         self.announce(f"{self.full}/_action/send_goal", f"{self.type_.interface__}_SendGoal")
         return self
 

@@ -11,7 +11,7 @@ from tftool.ros.host import values
 from tftool.ros.host.error_text import error_sentence
 from tftool.ros.rclpy.action_client import STATUS, GoalStatus
 from tftool.ros.rclpy.entities import WorkQueue, outcome
-from tftool.ros.rclpy.node_state import state_of
+from tftool.ros.rclpy.node_state import NodeState, state_of
 from tftool.ros.rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_default
 from tftool.ros.rclpy.topics import Publisher
 from tftool.world.action_parts import ActionParts, goal_id_message
@@ -139,7 +139,7 @@ class ActionServer(WorkQueue):
         self._stops: list[Callable[[], None]] = []
         self._goals: set[WorldGoal] = set()
 
-        def serve() -> "ActionServer":
+        def serve(state: NodeState) -> "ActionServer":
             stop = state.world.serve_action(
                 self.full, self.arrived, action_type, node=state.authority
             )

@@ -91,7 +91,7 @@ class Node(NodeGraph, NodeParameters):
         if enable_rosout and options.logs_to_rosout:
             profile = rosout_qos_profile or qos_profile_rosout_default
             kind = INTERFACES.message("rcl_interfaces/Log")
-            rosout = self.__keep(RosoutPublisher, kind, "/rosout", "rosout", profile)
+            rosout = self._tftool.keep(RosoutPublisher, kind, "/rosout", "rosout", profile)
             rosout.logger = self._logger.name
             self._tftool.rosout = rosout
         if start_parameter_services:
@@ -193,7 +193,7 @@ class Node(NodeGraph, NodeParameters):
         full = self._tftool.full(topic)
         profile = self.__profile(Publisher, full, qos_profile, qos_overriding_options)
         make = publisher_class or Publisher
-        made: Publisher = self.__keep(make, msg_type, topic, full, profile)
+        made: Publisher = self._tftool.keep(make, msg_type, topic, full, profile)
         self.__watch(made, callback_group, event_callbacks)
         return made
 
@@ -216,7 +216,7 @@ class Node(NodeGraph, NodeParameters):
         full = self._tftool.full(topic)
         group = callback_group or self._default_callback_group
         profile = self.__profile(Subscription, full, qos_profile, qos_overriding_options)
-        made: Subscription = self.__keep(
+        made: Subscription = self._tftool.keep(
             Subscription, msg_type, topic, full, callback, profile, group, raw
         )
         self.__watch(made, group, event_callbacks)
@@ -250,7 +250,7 @@ class Node(NodeGraph, NodeParameters):
         if callbacks is None:
             return
         group = group or self._default_callback_group
-        endpoint.event_watch = self.__keep(EndpointWatch, group, endpoint.endpoint, callbacks)
+        endpoint.event_watch = self._tftool.keep(EndpointWatch, group, endpoint.endpoint, callbacks)
 
     def create_timer(
         self,
@@ -273,7 +273,7 @@ class Node(NodeGraph, NodeParameters):
             raise ValueError("timer period must not be negative")
         group = callback_group or self._default_callback_group
         goes_by = clock or self._clock
-        return self.__keep(Timer, callback, period, group, goes_by, autostart)
+        return self._tftool.keep(Timer, callback, period, group, goes_by, autostart)
 
     def _warn_of_missing_callback(self, place: CodeLine | None) -> None:
         # rclpy accepts None for a timer without a callback, but in a learner's node None is a
@@ -296,7 +296,7 @@ class Node(NodeGraph, NodeParameters):
         check_is_valid_srv_type(srv_type)
         full = self._tftool.full(srv_name, is_service=True)
         group = callback_group or self._default_callback_group
-        return self.__keep(Client, srv_type, srv_name, full, group)
+        return self._tftool.keep(Client, srv_type, srv_name, full, group)
 
     def create_service(
         self,
@@ -312,14 +312,14 @@ class Node(NodeGraph, NodeParameters):
         _require_callable(callback)
         full = self._tftool.full(srv_name, is_service=True)
         group = callback_group or self._default_callback_group
-        return self.__keep(Service, srv_type, srv_name, full, callback, group)
+        return self._tftool.keep(Service, srv_type, srv_name, full, callback, group)
 
     def create_guard_condition(
         self, callback: Callable[[], Any], callback_group: CallbackGroup | None = None
     ) -> GuardCondition:
         """Create a guard condition that calls `callback` after each trigger."""
         group = callback_group or self._default_callback_group
-        return self.__keep(GuardCondition, callback, group)
+        return self._tftool.keep(GuardCondition, callback, group)
 
     def create_rate(self, frequency: float, clock: Clock | None = None) -> Rate:
         """Create a rate, whose method `sleep` makes a loop run `frequency` times per second.
@@ -332,7 +332,7 @@ class Node(NodeGraph, NodeParameters):
         if frequency <= 0:
             raise ValueError("frequency must be greater than 0")
         period, goes_by = _period_of(1.0 / frequency), clock or self._clock
-        timer = self.__keep(RateTimer, None, period, None, goes_by)
+        timer = self._tftool.keep(RateTimer, None, period, None, goes_by)
         return Rate(self._tftool, timer)
 
     def destroy_rate(self, rate: Rate) -> bool:
@@ -360,12 +360,9 @@ class Node(NodeGraph, NodeParameters):
             for below, kind, answer in services():
                 full = state.full(f"~/{below}", is_service=True)
                 if not state.world.has_service(full):
-                    state.add(Service, state, kind, f"~/{below}", full, answer, group)
+                    state.add(Service, kind, f"~/{below}", full, answer, group)
 
         state.program.ask(partial(state.world.serve_later, state.node, offer))
-
-    def __keep(self, make: Callable[..., E], *args: Any) -> E:
-        return self._tftool.keep(make, self._tftool, *args)
 
     def __destroy(self, entity: Any) -> bool:
         return self._tftool.forget(entity)

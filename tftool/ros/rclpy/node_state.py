@@ -11,11 +11,12 @@ from functools import partial
 from typing import Any, TypeVar
 
 from tftool.ros.host import names
-from tftool.ros.host.program import Program, ProgramNode
+from tftool.ros.host.program import Program
 from tftool.ros.rclpy.exceptions import InvalidHandle
 from tftool.ros.rclpy.validation import validate_topic_name
 from tftool.world.clock import Phase
 from tftool.world.endpoints import PUBLISHER, Endpoint
+from tftool.world.node import Node
 from tftool.world.world import TransformMessage, World
 
 T = TypeVar("T")
@@ -61,11 +62,11 @@ class NodeState:
         self.rosout: Any = None
         self.entities: list[Any] = []
         self._destroyed = False
-        self.node: ProgramNode = program.ask(self._join)
+        self.node: Node = program.ask(self._join)
         self.authority: str = self.node.name
         program.nodes.append(self)
 
-    def _join(self) -> ProgramNode:
+    def _join(self) -> Node:
         wanted = names.join(self.namespace, self.name)
         if self.program.name == wanted:
             # The executable and its node often have the same name, so the program gets another one.
@@ -82,7 +83,7 @@ class NodeState:
             )
         elif name in self.world.far_nodes and not is_tool:
             self.program.say("WARN", name, names.named_twice(name))
-        return ProgramNode(self.program, name)
+        return Node(self.world, name)
 
     def full(self, name: str, *, remap: bool = True, is_service: bool = False) -> str:
         """Return the full name of a topic or service, without leading slash.
@@ -125,7 +126,7 @@ class NodeState:
             )
 
     def keep(self, make: Callable[..., T], *args: Any) -> T:
-        """Call `make(*args)` in the event loop's thread, and add the resulting entity to the node.
+        """Create an entity of the node, as `add` does, in the event loop's thread.
 
         Raises:
             InvalidHandle: If the node is destroyed.
@@ -135,11 +136,11 @@ class NodeState:
         return entity
 
     def add(self, make: Callable[..., T], *args: Any) -> T:
-        """Call `make(*args)` and add the result, such as a timer, to the node.
+        """Call `make(self, *args)`, and add the resulting entity, such as a timer, to the node.
 
         Call this in the event loop's thread.
         """
-        entity = make(*args)
+        entity = make(self, *args)
         self.entities.append(entity)
         self.wake()
         return entity

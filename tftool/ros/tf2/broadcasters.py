@@ -62,11 +62,9 @@ class TransformListener:
         buffer.hints.has_listener = True
         self._member.keep(self._listen, static_only)
 
-    def _listen(self, static_only: bool) -> NodeEntity:
-        world = self._member.world
-
-        arrivals = _Arrivals(self._member, self._stop)
-        program = self._member.program
+    def _listen(self, state: NodeState, static_only: bool) -> NodeEntity:
+        world, program = state.world, state.program
+        arrivals = _Arrivals(state, self._stop)
         # The clock jumps back if a recording is played again or a simulation starts again.
         watch = Watch(
             lambda: self.buffer.frames.clear(),
@@ -85,7 +83,7 @@ class TransformListener:
         for sample in world.static_transforms():
             self.buffer.frames.set_transform_static(sample, AUTHORITY)
             arrivals.note()
-        owner = self._member.authority
+        owner = state.authority
         self._stops = [world.tf_static.subscribe(partial(insert, static=True), owner)]
         if not static_only:
             self._stops.append(world.tf.subscribe(partial(insert, static=False), owner))
