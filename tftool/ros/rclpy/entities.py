@@ -201,8 +201,8 @@ class GuardCondition(WorkQueue):
 class CallbackGroup:
     """Group of callbacks with a rule about which of them may run at the same time."""
 
-    def __init__(self) -> None:
-        self.busy = 0
+    busy = 0
+    """Number of callbacks of the group that are running."""
 
     def add_entity(self, entity: Any) -> None:
         """Do nothing, because each entity stores its callback group."""

@@ -314,14 +314,15 @@ class Executor:
         """Put the ready entities of all nodes into the batch; each node's timers come first."""
         self._due = None
         for state in list(self._states):
-            timers = [one for one in state.entities if isinstance(one, Timer)]
-            for timer in timers:
+            for entity in state.entities:
+                if not isinstance(entity, Timer):
+                    continue
                 # A timer of another source of time wakes the executor when this time is set.
-                is_timed = not (timer.is_canceled() or timer.clock.is_overridden)
-                if self._is_ready(timer):
-                    self._batch.append(timer)
-                elif is_timed and self._may_run(timer):
-                    self._due = timer.due if self._due is None else min(timer.due, self._due)
+                is_timed = not (entity.is_canceled() or entity.clock.is_overridden)
+                if self._is_ready(entity):
+                    self._batch.append(entity)
+                elif is_timed and self._may_run(entity):
+                    self._due = entity.due if self._due is None else min(entity.due, self._due)
             for entity in state.entities:
                 if not isinstance(entity, Timer) and self._is_ready(entity):
                     self._batch.append(entity)
@@ -427,17 +428,17 @@ class MultiThreadedExecutor(Executor):
             self._program.start_fiber(self._program.new_fiber(name, work))
 
 
-def executor_of(owner: "program.Program") -> Executor:
-    """Return the executor that `rclpy.spin` uses in a program; create it at the first call."""
+def get_global_executor(owner: "program.Program | None" = None) -> Executor:
+    """Return the executor that `spin` uses by default; create the executor at the first call.
+
+    Args:
+        owner: Program of the executor; None for the calling program.
+    """
+    owner = owner or program.current()
     if owner.executor is None:
         owner.executor = SingleThreadedExecutor()
     executor: Executor = owner.executor
     return executor
-
-
-def get_global_executor() -> Executor:
-    """Return the executor that `spin` uses by default."""
-    return executor_of(program.current())
 
 
 @contextmanager
@@ -465,7 +466,7 @@ def wait_for(state: NodeState, future: Future, timeout_sec: float | None = None)
     Returns:
         Result of the future; None if the future is not done in time.
     """
-    executor = state.executor or executor_of(state.program)
+    executor = state.executor or get_global_executor(state.program)
     if state.executor is None and executor.context is not state.context:
         with SingleThreadedExecutor(context=state.context) as executor:
             executor.add_node(state.ros_node)

@@ -41,7 +41,7 @@ class NodeParameters:
     ) -> None:
         kind: Any = INTERFACES.message("rcl_interfaces/ParameterEvent")
         topic, profile = PARAMETER_EVENTS, qos_profile_parameter_events
-        self.__events: Publisher = state.keep(Publisher, state, kind, topic, topic[1:], profile)
+        self.__events: Publisher = state.keep(Publisher, kind, topic, topic[1:], profile)
         self._parameters: dict[str, Parameter] = {}
         self._descriptors: dict[str, Any] = {}
         self._parameter_overrides: dict[str, Any] = {one.name: one.value for one in overrides}
@@ -67,7 +67,7 @@ class NodeParameters:
         deleted: Sequence[Parameter] = (),
     ) -> None:
         """Publish a parameter event, unless nobody subscribes to these events."""
-        if self.__events.get_subscription_count():
+        if self.__events.is_heard:
             state = self.__events.node_state
             self.__events.publish(
                 self.__events.msg_type(
@@ -138,7 +138,13 @@ class NodeParameters:
         validate_parameter_name(name)
         if name in self._parameters:
             raise ParameterAlreadyDeclaredException(name)
-        descriptor = _checked_descriptor(descriptor)
+        wanted: Any = INTERFACES.message("rcl_interfaces/ParameterDescriptor")
+        if descriptor is None:
+            descriptor = wanted()
+        if not isinstance(descriptor, wanted):
+            raise TypeError(
+                f"a descriptor must be a ParameterDescriptor, not {type(descriptor).__name__}"
+            )
         kind, value = _kind_and_value(name, value, descriptor)
         self._unused_parameters.pop(name, None)
         if not ignore_override and name in self._parameter_overrides:
@@ -472,22 +478,6 @@ def set_result(successful: bool, reason: str) -> Any:
     """Return a SetParametersResult message with `successful` and the reason of a rejection."""
     kind = INTERFACES.message("rcl_interfaces/SetParametersResult")
     return kind(successful=successful, reason=reason)
-
-
-def _checked_descriptor(descriptor: Any) -> Any:
-    """Return `descriptor` unchanged; for None, an empty ParameterDescriptor message.
-
-    Raises:
-        TypeError: If the descriptor has another type.
-    """
-    wanted: Any = INTERFACES.message("rcl_interfaces/ParameterDescriptor")
-    if descriptor is None:
-        return wanted()
-    if not isinstance(descriptor, wanted):
-        raise TypeError(
-            f"a descriptor must be a ParameterDescriptor, not {type(descriptor).__name__}"
-        )
-    return descriptor
 
 
 def _kind_and_value(name: str, declared: Any, descriptor: Any) -> tuple[Type, Any]:

@@ -66,6 +66,8 @@ class TopicEnd(NodeEntity):
         self._quality = quality_of(profile, offered=role == PUBLISHER)
         self._is_latched = self._quality.is_latched and full not in values.TF_TOPICS
         keeps = self._is_latched and role == PUBLISHER
+        keeps_all = profile.history is HistoryPolicy.KEEP_ALL
+        self._queue_limit = None if keeps_all else max(1, profile.depth)
         self.endpoint = Endpoint(
             role,
             state.authority,
@@ -75,7 +77,7 @@ class TopicEnd(NodeEntity):
             # A latched subscription gets other processes' messages, including earlier messages,
             # from the connection itself.
             deliver=deliver if self._is_latched else None,
-            kept=deque(maxlen=_queue_limit(profile)) if keeps else None,
+            kept=deque(maxlen=self._queue_limit) if keeps else None,
         )
 
     @property
@@ -137,6 +139,11 @@ class Publisher(TopicEnd):
         if self.endpoint.kept is not None:
             self.endpoint.kept.append(value)
         self._topic.publish(value, self.endpoint)
+
+    @property
+    def is_heard(self) -> bool:
+        """Whether the topic has a subscription; unlike a count, this is no query of the program."""
+        return bool(self._topic.subscribers)
 
     def get_subscription_count(self) -> int:
         """Return the number of subscriptions to the topic."""
@@ -202,7 +209,7 @@ class Subscription(TopicEnd):
         super().__init__(state, group, SUBSCRIPTION, kind, topic, full, profile, self._accept)
         self.raw = raw
         self.callback: Callable[..., Any] = callback
-        self._queue: deque[Any] = deque(maxlen=_queue_limit(profile))
+        self._queue: deque[Any] = deque(maxlen=self._queue_limit)
         self._takes_info = not accepts(callback, None) and accepts(callback, None, None)
         self._leave = state.world.endpoints.add(self.endpoint)
         self._stop = self._topic.subscribe(self._arrived, state.authority)
@@ -296,8 +303,3 @@ class RosoutPublisher(Publisher):
             line=line,
         )
         self._send(message)
-
-
-def _queue_limit(profile: QoSProfile) -> int | None:
-    """Return the largest number of messages in a queue with this profile; None for no limit."""
-    return None if profile.history is HistoryPolicy.KEEP_ALL else max(1, profile.depth)
