@@ -232,3 +232,22 @@ def test_pairs_of_samples_that_are_stamped_on_arrival_are_a_note(copies):
         told = found(made, "bunched-stamps").evidence[0]
         assert "16.7 % of the steps are below" in told
         assert "moves as far in the short steps" in told
+
+
+# Latitude 0, longitude 0 has the easting 166021.443 in zone 31. The last case is the example of the
+# Python package utm: latitude 51.2, longitude 7.5.
+@pytest.mark.parametrize(
+    ("x", "y", "told"),
+    [
+        (-166021.443, 0.0, ["utm-origin"]),
+        (0.0, 166021.443, ["utm-origin"]),
+        (-166021.443, -10_000_000.0, ["utm-origin"]),
+        (-395201.310, -5673135.241, []),
+    ],
+)
+def test_utm_coordinates_of_a_position_of_zeros_are_told(x, y, told):
+    for edge in (("odom", "utm"), ("utm", "map")):
+        made = robot() if edge[0] == "odom" else Robot()
+        made.static(*edge, (x, y, 0.0, *NO_TURN))
+        made.moving("odom" if edge[0] == "odom" else "map", "body")
+        assert ids(made) == told

@@ -309,3 +309,44 @@ def _is_half_turn(track: Track) -> bool:
     return bool(len(track.by_stamp)) and bool(
         (track.rotations[track.last] == (1.0, 0.0, 0.0, 0.0)).all()
     )
+
+
+@check(
+    "utm-origin",
+    Severity.WARNING,
+    rule="a frame whose name begins with utm is {metres:g} m or less from the distance between its "
+    "origin and latitude 0, longitude 0, in the other frame of its transform",
+    headline="{where} {concerned:is|are} set from latitude 0, longitude 0",
+    detail="{edge}: {away} m apart, as far as the place at latitude 0, longitude 0 is from the "
+    "origin of its UTM zone",
+    consequence="positions in utm, and those converted from GPS through it, are wrong by the "
+    "distance of the robot from that place",
+    fixes=(
+        Fix(
+            "look at the first position that its publisher used (a NavSatFix without a fix, or a "
+            "datum of zeros), and restart it with a true one"
+        ),
+    ),
+    limits={"metres": 1.0},
+    causes=("navsat_transform_node got a first NavSatFix of zeros",),
+)
+def utm_origin(model: Model, limits: Limits) -> Iterator[Hit]:
+    """A frame of UTM coordinates was set from latitude 0, longitude 0."""
+    for track in model.tracks:
+        if not len(track.by_stamp) or not any(_is_utm(name) for name in track.edge):
+            continue
+        x, y, _ = track.translations[track.last].tolist()
+        away = math.hypot(x, y)
+        if any(abs(away - math.hypot(_EAST, north)) <= limits["metres"] for north in (0.0, _NORTH)):
+            yield hit_of(track, {"away": f"{away:.3f}"})
+
+
+def _is_utm(name: str) -> bool:
+    return last_part(name).lower().startswith("utm")
+
+
+_EAST = 166_021.443
+"""Easting of latitude 0, longitude 0 in UTM zone 31, metres."""
+
+_NORTH = 10_000_000.0
+"""Northing of the equator in the southern zones of UTM, metres."""
