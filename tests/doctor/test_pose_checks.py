@@ -172,6 +172,10 @@ def test_samples_between_a_jump_and_the_jump_back_are_outliers(every, often):
     # Half a turn and less: 2.8 rad are 160.4 degrees.
     assert finding.message == f"drone in world jumps 160° away for 30 ms, and back{often}"
     assert "3 samples at" in finding.evidence[0]
+    # The last right sample is at 2.99 s, and the first wrong one at 3 s.
+    assert finding.fixes[0].command == "tftool echo world drone RECORDING --at 1750000002.99"
+    assert finding.fixes[1].command == "tftool echo world drone RECORDING --at 1750000003"
+    assert "markers" in finding.fixes[2].text
 
 
 def test_a_lasting_jump_beside_an_outlier_is_reported_too():

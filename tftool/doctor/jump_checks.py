@@ -4,13 +4,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, Stamp, seconds
+from tftool.base.stamps import NANOSECONDS, Stamp, seconds
 from tftool.doctor.check import REP105, checks_of, hit_of, threads
-from tftool.doctor.findings import Area, Edge, Fix, Hit, Severity
+from tftool.doctor.findings import Area, Edge, Hit, Severity
 from tftool.doctor.gap_checks import base_at, is_detection
-from tftool.doctor.missing_joins import is_world, quoted
-from tftool.doctor.model import Limits, Model
-from tftool.doctor.pose_checks import OUTLIER, outliers
+from tftool.doctor.missing_joins import is_world
+from tftool.doctor.model import WARM_UP, Limits, Model
+from tftool.doctor.pose_checks import OUTLIER, look_at, outliers
 from tftool.doctor.stamp_stream import BASES, Places, Track, last_part
 from tftool.doctor.wording import metres, moment, several, span
 from tftool.geometry.rigid_arrays import Floats, rotate, unit
@@ -124,7 +124,17 @@ def _jump(model: Model, track: Track, places: Places, limits: Limits) -> Hit | N
     is_odometry = last_part(track.parent).startswith("odom")
     usual = float(np.median(apart[later] / gaps[later]))
     far = metres(float(apart[worst])) if moved[worst] else f"{np.degrees(turned[worst]):.3g}°"
-    how = f" within {span(gaps[worst] * NANOSECONDS)}"
+    within, told = int(stamps[worst + 1] - stamps[worst]), ""
+    changes = np.flatnonzero((apart > _SAME) | (turned > _SAME))
+    if len(before := changes[changes < worst]):
+        # A pose that is repeated with new stamps was measured when it was new. A robot that rests
+        # for long also repeats its pose, but does not jump in that time.
+        new = int(before[-1]) + 1
+        since = int(stamps[worst + 1] - stamps[new])
+        if within < since <= 3 * np.median(np.diff(stamps[changes])):
+            within, told = since, f"; the pose before is sent {worst + 1 - new} times"
+    how = f" within {span(within)}"
+    first = "" if topic else _first_message(model, int(track.logs[others[worst]]))
     return hit_of(
         track,
         {
@@ -132,12 +142,12 @@ def _jump(model: Model, track: Track, places: Places, limits: Limits) -> Hit | N
             "turn": float(turned[worst]),
             "far": far,
             "named": f"{track.name} jumps {far}{how}",
-            "within": int(gaps[worst] * NANOSECONDS),
+            "within": within,
             "how": how,
             "at": int(track.stamps[others[worst]]),
             "others": _others(track, others[jumps], int(others[worst])),
-            "usual": f"; usual {usual:.2g} m/s" if usual else "",
-            "after": f"; each at most {span(after)} after a message of {topic}" if topic else "",
+            "usual": f"{told}; usual {usual:.2g} m/s" if usual else told,
+            "after": f"; each at most {span(after)} after a message of {topic}" if topic else first,
             "count": len(jumps),
             "also": "; REP-105 wants this transform continuous" if is_odometry else "",
             "mixed": is_whole,
@@ -146,7 +156,7 @@ def _jump(model: Model, track: Track, places: Places, limits: Limits) -> Hit | N
         until=int(track.logs[others[jumps[-1]]]),
         count=len(jumps),
         severity=Severity.NOTE if model.is_minor(track) else None,
-        fixes=_look(
+        fixes=look_at(
             model, track.edge, int(track.stamps[some[worst]]), int(track.stamps[others[worst]])
         ),
     )
@@ -172,21 +182,6 @@ def _is_of_a_person(model: Model, track: Track) -> bool:
 
 _FEWEST_LIMBS = 4
 """Minimum number of frames without children, directly below one sensor, that show a person."""
-
-
-def _look(model: Model, edge: Edge, before: Stamp, after: Stamp) -> tuple[Fix, ...]:
-    """Return remedies with the commands that print the pose before a jump and the pose after it."""
-    echo = f"tftool echo {quoted(edge[0])} {quoted(edge[1])} RECORDING --at"
-    # A small number is seconds since the start of the recording, not a stamp.
-    begin = model.epoch if after < SIMULATED_BELOW else 0
-    first, then = (
-        f"{(one - begin) // NANOSECONDS}.{(one - begin) % NANOSECONDS:09}".rstrip("0").rstrip(".")
-        for one in (before, after)
-    )
-    return (
-        Fix("compare the jump with the sensors; before it:", f"{echo} {first}"),
-        Fix("after it:", f"{echo} {then}"),
-    )
 
 
 def _others(track: Track, places: Places, worst: int) -> str:
@@ -289,9 +284,12 @@ def _repeated_jumps(
         since=int(track.logs[places[steps[0] + 1]]),
         until=int(track.logs[places[steps[-1] + 1]]),
         count=len(steps),
-        fixes=_look(model, shown, *track.stamps[places[[worst, worst + 1]]].tolist()),
+        fixes=look_at(model, shown, *track.stamps[places[[worst, worst + 1]]].tolist()),
     )
 
+
+_SAME = 1e-6
+"""Distance, metres, or angle, radians, below which two poses are one pose."""
 
 _SOON = seconds(0.05)
 """Maximum time, nanoseconds, from a message to the jump that it triggers."""
@@ -319,6 +317,21 @@ def _trigger(model: Model, jumps: Stamps) -> tuple[str, int]:
         if is_rare and before.min() >= 0 and delays.max() < best[1]:
             best = heard.topic, int(delays.max())
     return best
+
+
+def _first_message(model: Model, jump: Stamp) -> str:
+    """Return a clause about a topic of positions that began with a jump; "" without such a topic.
+
+    Args:
+        model: Model of the evidence.
+        jump: Log time of the jump, nanoseconds.
+    """
+    for heard in model.heard:
+        since = jump - int(heard.logs[0])
+        is_position = last_part(heard.type) in ("NavSatFix", "Odometry") or "Pose" in heard.type
+        if is_position and 0 <= since < _SOON and heard.logs[0] > model.start + WARM_UP:
+            return f"; the first message of {heard.topic} arrived {span(since)} before it"
+    return ""
 
 
 def _jumps(

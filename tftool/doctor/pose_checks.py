@@ -8,10 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from tftool.base.plain_text import count
-from tftool.base.stamps import NANOSECONDS
+from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, Stamp
 from tftool.doctor.check import checks_of, hit_of
-from tftool.doctor.findings import Area, Confidence, Fact, Fix, Hit, Severity
+from tftool.doctor.findings import Area, Confidence, Edge, Fact, Fix, Hit, Severity
 from tftool.doctor.gap_checks import is_detection
+from tftool.doctor.missing_joins import is_world, quoted
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_stream import Mask, Places, Track
 from tftool.doctor.wording import metres, moment, several, span
@@ -324,6 +325,21 @@ _SHORT = 1e-3
 """Minimum time between two samples, seconds, that is used for a speed."""
 
 
+def look_at(model: Model, edge: Edge, before: Stamp, after: Stamp) -> tuple[Fix, ...]:
+    """Return remedies with the commands that print the poses before and after a jump."""
+    echo = f"tftool echo {quoted(edge[0])} {quoted(edge[1])} RECORDING --at"
+    # A small number is seconds since the start of the recording, not a stamp.
+    begin = model.epoch if after < SIMULATED_BELOW else 0
+    first, then = (
+        f"{(one - begin) // NANOSECONDS}.{(one - begin) % NANOSECONDS:09}".rstrip("0").rstrip(".")
+        for one in (before, after)
+    )
+    return (
+        Fix("compare the jump with the sensors; before it:", f"{echo} {first}"),
+        Fix("after it:", f"{echo} {then}"),
+    )
+
+
 OUTLIER = {
     "metres": 0.25,
     "radians": 0.5,
@@ -398,7 +414,17 @@ def outlier(model: Model, limits: Limits) -> Iterator[Hit]:
             until=int(track.logs[ends[-1]]),
             count=len(spans),
             severity=Severity.NOTE if model.is_minor(track) else None,
+            fixes=(
+                *look_at(model, track.edge, *track.stamps[[before[0], first[0]]].tolist()),
+                *((_MARKERS,) if is_world(track.parent) and not track.is_odometry else ()),
+            ),
         )
+
+
+_MARKERS = Fix(
+    "if motion capture sends it, look whether its markers were hidden, or look alike from two sides"
+)
+"""Remedy for wrong poses of a body in a world frame."""
 
 
 def outliers(track: Track, limits: Limits) -> list[tuple[int, int]]:
