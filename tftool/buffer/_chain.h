@@ -126,7 +126,7 @@ INLINE void transpose(const Record *records, const ptrdiff_t *places, int width,
 INLINE void fetch_eights(const Edge *edge, const int64_t *times, int n, int width, double *first,
                          double *second, double *fraction, ptrdiff_t *places) {
     int64_t before[BLOCK], after[BLOCK];
-    /* Extra rows of the last group repeat the last place; nobody reads their results. */
+    /* Extra rows of the last group repeat the last place; their results are not used. */
     for (int i = n; i % 8 != 0; i++)
         places[i] = places[n - 1];
     for (int i = 0; i < n; i += 8) {
@@ -163,7 +163,7 @@ INLINE void fetch(const Edge *edge, const int64_t *times, int n, int width, int 
             if (!(records[at].stamp <= time && time < records[at + 1].stamp))
                 at = find(edge, time, at);
         }
-        else /* Of equal stamps, the newest end uses the last sample, the oldest the first. */
+        else /* Of samples with an equal stamp: at the newest time the last, at the oldest the first. */
             at = time == edge->oldest && time != edge->newest ? 0 : last;
         places[i] = at;
         if (eights)

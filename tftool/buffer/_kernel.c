@@ -5,9 +5,9 @@
 
    - A function either does exactly what its twin does, with the same operations in the same order
      (built with -ffp-contract=off), or changes nothing and lets the twin run. Unusual cases (a
-     refusal, a link that changes parents, a number that is no float) go to the twin.
-   - Between calls it stores only which pairs of frames were looked up recently. Samples are in
-     arrays that Python owns. They are read and written through the buffer protocol, and every
+     refusal, a link that changes parents, a number that is not a float) go to the twin.
+   - Between calls the kernel stores only which pairs of frames were looked up recently. Samples are
+     in arrays that Python owns. The arrays are read and written through the buffer protocol, and every
      index and length is checked against the buffer.
    - Any call into Python may run the collector, and thereby code that changes or frees what this
      file points to. So every object used across such a call is owned (a reference of ours), and
@@ -22,7 +22,7 @@
 
 #include "_chain.h"
 
-/* Version that `tftool.base.native` expects; a build with another one is not used. */
+/* Version that `tftool.base.native` expects; a build with another version is not used. */
 #define INTERFACE 7
 
 /* Shared with Python ------------------------------------------------------ */
@@ -216,9 +216,9 @@ static int same_text(PyObject *known, PyObject *given) {
 /* Return the value of a key in a dictionary, a new reference; NULL without an error if there is
    none, or the arguments are no dictionary and no plain string.
 
-   Names in a buffer are plain strings, so that no comparison runs code. If a key is an instance of
-   a subclass all the same, its `__eq__` could run here and free the dictionary or the value: so
-   both are owned. An exception is dropped here, and raised again by the plain twin. */
+   Names in a buffer are plain strings, so that no comparison runs code. If a key is nevertheless an
+   instance of a subclass, its `__eq__` could run here and free the dictionary or the value: so both
+   are owned. An exception is dropped here, and raised again by the plain twin. */
 static PyObject *value_of(PyObject *dictionary, PyObject *name) {
     if (dictionary == NULL || !PyDict_Check(dictionary) || !PyUnicode_CheckExact(name))
         return NULL;
@@ -290,8 +290,8 @@ static int is_second(Door *door, int64_t target, int64_t source) {
     char *place = PyByteArray_AsString(door->_seen) + mixed / (UINT64_MAX / SEEN + 1) * sizeof pair;
     int64_t held;
     memcpy(&held, place, sizeof held);
-    /* Two pairs with one place that are looked up in turn would always replace each other. So the
-       older pair stays every second time, at random (with the constants of C's `rand`). */
+    /* If two pairs share a place and are looked up by turns, they would always replace each other.
+       So the older pair stays every second time, at random (with the constants of C's `rand`). */
     door->random = door->random * 1103515245 + 12345;
     if (held == 0 || door->random >> 31)
         memcpy(place, &pair, sizeof pair);
@@ -321,7 +321,7 @@ static PyObject *walk(Door *door, const Types *types, PyObject *target, PyObject
         Py_DECREF(up[--ups]);
         Py_DECREF(down[--downs]);
     }
-    /* `pack` takes the references to the links, also without memory. */
+    /* `pack` takes over the references to the links, even if there is no memory. */
     PyObject *sides[2] = {pack(up, ups), pack(down, downs)};
     if (downs >= 0 && top == end && sides[0] != NULL && sides[1] != NULL)
         path = PyTuple_Pack(2, sides[0], sides[1]);
@@ -335,8 +335,8 @@ static PyObject *walk(Door *door, const Types *types, PyObject *target, PyObject
    collector does not track the tuple, because numbers and plain strings form no cycle. */
 static PyObject *blank(const Types *types, int i) {
     if (types->is_bare) {
-        /* Without its constructor a tuple takes 9 % less of a lookup. No item may be garbage, even
-           if an error ends the tuple before it is filled. */
+        /* To make the tuple without its constructor saves 9 % of a lookup. Every item must be NULL
+           or valid, even if an error frees the tuple before it is filled. */
         PyVarObject *bare = PyObject_GC_NewVar(PyVarObject, types->tuples[i], SIZES[i]);
         if (bare != NULL)
             memset(bare + 1, 0, (size_t)SIZES[i] * sizeof(PyObject *));
@@ -348,8 +348,8 @@ static PyObject *blank(const Types *types, int i) {
     return made;
 }
 
-/* Store an item in a tuple, which takes the reference, if both exist. Returns the item,
-   borrowed; on failure releases it and returns NULL with an error set. */
+/* Store an item in a tuple, if both exist; the tuple takes over the reference. Returns the item,
+   borrowed; on failure releases the item and returns NULL with an error set. */
 static PyObject *set(PyObject *tuple, Py_ssize_t place, PyObject *item) {
     if (tuple != NULL && item != NULL)
         return PyTuple_SetItem(tuple, place, item) == 0 ? item : NULL;
@@ -461,7 +461,8 @@ METHOD(can_transform) {
         ? Py_NewRef(Py_True) : PLAINLY(can_transform);
 }
 
-/* Like `solve_path`, but both frames may be the same, if the other lookup has found that frame. */
+/* Like `solve_path`, but the two frames may be equal: the pose is then the identity. The other lookup
+   must have found that frame. */
 static int solve_leg(Door *door, const Types *types, PyObject *target, PyObject *source,
                      int64_t *time, double *pose) {
     for (int k = 0; k < 7; k++)
@@ -506,9 +507,9 @@ static int is_free(const Link *link) {
 #define SLACK 32
 #define SLACK_PART 8
 
-/* Insert a sample: `History.insert` where no other sample has its stamp, and all have the same
-   origin. If `may_grow`, the link gets more memory where it needs some. Returns whether it did;
-   never sets an error. */
+/* Insert a sample: `History.insert` for a stamp that no other sample has, if all samples have the
+   same origin. If `may_grow`, the link gets more memory if necessary. Returns whether the sample was
+   inserted; never sets an error. */
 static int put(Link *link, int64_t stamp, int64_t origin, double *pose, int may_grow) {
     Py_buffer view;
     const double square = square_of(pose + 3, 1);
@@ -582,8 +583,8 @@ static int put(Link *link, int64_t stamp, int64_t origin, double *pose, int may_
     return fits;
 }
 
-/* Insert a sample if the buffer already knows its child, parent and authority. Returns whether it
-   did; never sets an error. */
+/* Insert a sample if the buffer already knows its child, parent and authority. Returns whether the
+   sample was inserted; never sets an error. */
 static int insert(const Door *door, const Types *types, PyObject *sample, PyObject *authority) {
     int64_t stamp, origin;
     double pose[7];

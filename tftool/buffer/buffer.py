@@ -218,7 +218,7 @@ class Buffer(Door):
         return self._set_slowly(transform, authority, True)
 
     def _set_slowly(self, transform: TransformStamped, authority: str, static: bool) -> bool:
-        """Insert a sample with all checks: a static sample, or one that the fast path refused."""
+        """Insert a static sample, or a sample that the fast path refused, with all checks."""
         stamp, parent, child, pose = _parts(transform)
         stamp = whole(stamp)
         parent, child = tree.stripped(parent), tree.stripped(child)
@@ -860,7 +860,7 @@ def adopt_records(
         records: As in `Buffer.set_records`.
         authority: As in `Buffer.set_records`.
         checked: Number of leading records that need no check: their stamps increase, they are
-            finite, and their quaternions have unit length and tf2's sign.
+            finite, and their quaternions have unit length and the sign that tf2 computes.
 
     Returns:
         Whether all records were accepted. If not, nothing was changed.

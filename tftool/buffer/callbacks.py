@@ -109,7 +109,7 @@ def must_clear(
 
 
 class Watch:
-    """Detector of backward jumps of a clock, which clears a buffer at such a jump.
+    """Detector that clears a buffer if a clock jumps backward.
 
     A buffer has no clock, and a recording or a simulation may restart. Code that fills a buffer
     from one of these first passes each new time to this class.

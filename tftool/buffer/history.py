@@ -180,7 +180,7 @@ class History(Fields):
     """A moving link: its samples of the last `limit` nanoseconds, as in tf2.
 
     Old samples are removed (pruned) only by an insertion, before the new sample is stored. Of
-    samples with equal stamps, the one inserted last is the newest.
+    samples with equal stamps, the sample inserted last is the newest.
 
     Attributes:
         is_static: Always false.
@@ -401,8 +401,8 @@ class History(Fields):
             origin: Numbers of the parent and the authority in one integer.
             pose: Position and quaternion in xyzw order, as received: the quaternion may have any
                 length and either sign.
-            validated: Whether the caller has checked stamp and numbers, and given the quaternion
-                unit length and tf2's sign.
+            validated: Whether the caller has checked stamp and numbers, and scaled the quaternion
+                to unit length, with the sign that tf2 computes.
 
         Returns:
             TOO_OLD if the sample is older than the limit; KNOWN if an equal sample is stored;

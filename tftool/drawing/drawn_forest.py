@@ -204,7 +204,7 @@ class Facts:
 
 
 def facts(frame: FrameInfo) -> Facts:
-    """Format the facts of the edge from a frame to its parent, as rqt_tf_tree does."""
+    """Format broadcaster, rate and stamps of a frame's transform, as rqt_tf_tree does."""
     return Facts(
         broadcaster=frame.authority or "no recorded authority",
         rate=str(float(f"{frame.rate:.3f}")),

@@ -59,7 +59,7 @@ def reasons(
     Args:
         tf2: Text of tf2's error; empty for a successful lookup.
         whys: Causes in sentences.
-        remedies: Remedies, each as a sentence and a command, which may be empty.
+        remedies: Remedies, each as a sentence and a command; the command may be empty.
         useless: Sentences about attempts that do not help.
     """
     told = Table.grid(padding=(0, 2), pad_edge=False)

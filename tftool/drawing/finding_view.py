@@ -291,7 +291,7 @@ def counted(findings: Sequence[Finding]) -> str:
 
 
 def brief(diagnosis: Diagnosis) -> str:
-    """Return one line about a diagnosis, which other commands print below their output."""
+    """Return a diagnosis in one line, for other commands to print below their output."""
     causes = [finding for finding in diagnosis.findings if finding.because_of is None]
     ids = ", ".join(dict.fromkeys(one.id for one in causes if one.severity is not _CALM))
     if not ids:

@@ -77,7 +77,7 @@ def unit(quaternions: Floats) -> Floats:
 
 
 def canonical(quaternions: Floats) -> Floats:
-    """Return unit quaternions, shape (..., 4), with tf2's sign; see `quaternions.canonical`."""
+    """Return unit quaternions, shape (..., 4), signed as in tf2; see `quaternions.canonical`."""
     x, y, z, w = np.moveaxis(quaternions, -1, 0)
     xx, yy, zz = x * x, y * y, z * z
     side = np.where(xx < yy, np.where(yy < zz, z, y), np.where(xx < zz, z, x))

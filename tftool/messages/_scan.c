@@ -21,7 +21,7 @@
 
 #include "../buffer/_path.h"
 
-/* Version that `tftool.messages.transform_rows` expects; a build with another one is not used. */
+/* Version that `tftool.messages.transform_rows` expects; a build with another version is not used. */
 #define INTERFACE 4
 
 #define SMALLEST 72              /* Bytes of a transform with empty names: stamp, two lengths, doubles. */
@@ -32,12 +32,12 @@
 #define MOST_BYTES (16 << 20)    /* Bytes of all names together. */
 #define RECORD 64                /* Bytes of a sample: a stamp and seven doubles. */
 #define LONGEST_RUN 32           /* Messages written edge by edge: they stay in the cache meanwhile. */
-#define NEAR 4096                /* Bytes from a message to the messages that are loaded meanwhile. */
+#define NEAR 4096                /* Bytes from the current message to the bytes that are prefetched. */
 #define HEAD 31                  /* Bytes of an MCAP message record before its payload. */
 #define MESSAGE 5                /* Opcode of an MCAP message record. */
 #define ENTRY 12                 /* Bytes of an entry in a ROS 1 chunk's index. */
 #define ROS1_MESSAGE 2           /* Op code of a ROS 1 message record. */
-#define LARGEST_HEADER (1 << 20) /* Most bytes of its header. */
+#define LARGEST_HEADER (1 << 20) /* Largest header of a ROS 1 record, bytes. */
 #define LEAF 0x0d                /* First byte of an sqlite page with rows of a table. */
 
 static inline uint32_t u32_at(const uint8_t *bytes) {
@@ -112,7 +112,7 @@ typedef struct {
     uint64_t longest, runs;
     Target *targets;
     Py_ssize_t targeted;
-    int is_cdr; /* The layout, CDR or ROS 1; it is the same for all messages, as the padding differs. */
+    int is_cdr; /* The layout, CDR or ROS 1; equal for all messages, because the padding of names differs. */
     int busy; /* 1 while a thread scans without the GIL; 2 while it calls `ask` with the GIL. */
 } Pairs;
 
@@ -354,8 +354,9 @@ static inline int is_written(Pairs *self, const Messages *messages, Py_ssize_t k
     return 1;
 }
 
-/* Whether a message has the same transforms, at the same offsets, as another one of the same length,
-   whose transforms are in `found`, `count` of them. Not inlined: gcc has too few registers then. */
+/* Whether the message `other` has the same transforms, at the same offsets, as the message `bytes` of
+   the same length, whose `count` transforms are in `found`. Not inlined: gcc would have too few
+   registers. */
 APART int is_alike(const Found *found, int64_t count, const uint8_t *bytes, const uint8_t *other, int is_cdr) {
     if (is_cdr ? u64_at(bytes) != u64_at(other) : u32_at(bytes) != u32_at(other))
         return 0;
@@ -391,7 +392,8 @@ APART int64_t write_run(Pairs *self, const Messages *messages, Py_ssize_t k, int
     const int64_t length = i64_at(messages->lengths, k);
     for (; run < most && i64_at(messages->lengths, k + 1 + run) == length; run++) {
         const uint8_t *other = messages->buffer + i64_at(messages->starts, k + 1 + run);
-        /* Another processor may have unpacked these bytes: 4 % of reading an lz4 recording. */
+        /* Prefetch, because another processor may have unpacked these bytes: saves 4 % of the time to
+           read an lz4 recording. */
         for (int64_t line = 0; line < length; line += 64)
             PREFETCH((const void *)((uintptr_t)other + NEAR + (uintptr_t)line));
         if (!is_alike(self->found, count, bytes, other, is_cdr))
@@ -404,8 +406,8 @@ APART int64_t write_run(Pairs *self, const Messages *messages, Py_ssize_t k, int
     return run;
 }
 
-/* Call `ask`, which gives a pair its columns, with room, by `aim` and `lead`. Returns whether it
-   did; sets an error if not. Needs the GIL. */
+/* Call `ask`, which provides columns with room for a pair, by `aim` and `lead`. Returns 1, or 0
+   with an error set. Needs the GIL. */
 static int is_aimed(Pairs *self, PyObject *ask, uint32_t pair, int32_t message, Py_ssize_t rank) {
     self->busy = 2;
     PyObject *answer = PyObject_CallFunction(ask, "Iin", (unsigned)pair, (int)message, rank);
@@ -739,7 +741,7 @@ static int varint(const uint8_t *bytes, const uint8_t *end, uint64_t *number) {
     return 0;
 }
 
-/* Read an integer column by its serial type. Returns its bytes; -1 if it is no integer. */
+/* Read an integer column by its serial type. Returns its bytes; -1 if the column is not an integer. */
 static int whole(uint64_t type, const uint8_t *bytes, const uint8_t *end, int64_t *number) {
     static const int sizes[] = {-1, 1, 2, 3, 4, 6, 8, -1, 0, 0};
     if (type > 9 || sizes[type] < 0 || end - bytes < sizes[type])

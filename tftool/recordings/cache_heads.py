@@ -101,7 +101,7 @@ def head_size(start: bytes) -> int:
 
 
 def parsed_head(data: bytes, key: str) -> dict[str, Any]:
-    """Parse the JSON header of a cache file, which contains the names of the frames.
+    """Parse the JSON header of a cache file; the header contains the names of the frames.
 
     Args:
         data: Bytes of the file before the columns.

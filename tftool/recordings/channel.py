@@ -64,7 +64,7 @@ class Offers:
 
 @lru_cache(maxsize=1024)
 def offers_of(text: str) -> Offers:
-    """Parse the QoS profiles recorded by rosbag2, whose policies are numbers or words."""
+    """Parse the QoS profiles recorded by rosbag2; policies may be numbers or words."""
     found: dict[str, list[str]] = {"durability": [], "reliability": []}
     for policy, word in _OFFER.findall(text[:_LONGEST_OFFERS]):
         plain = word.strip("\"'")

@@ -1,4 +1,4 @@
-"""Columns of transforms per edge (pair of frames), which grow while a recording is read."""
+"""Columns of transforms for each edge (pair of frames), filled while a recording is read."""
 
 from array import array
 from collections import Counter

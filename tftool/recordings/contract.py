@@ -90,7 +90,7 @@ class Edge:
             doubles x y z (metres) and x y z w (quaternion).
         messages: Message of each transform: an index into `Transforms.log_times`.
         kept: Number of leading rows that a buffer can accept without a check, because they have
-            increasing stamps, finite numbers, and unit quaternions of tf2's sign.
+            increasing stamps, finite numbers, and unit quaternions with the sign that tf2 computes.
     """
 
     parent: str

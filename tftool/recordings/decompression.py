@@ -44,7 +44,7 @@ Packed: TypeAlias = tuple[str, Callable[[], bytes], int]
 
 
 def unpack(method: str, packed: bytes, size: int) -> bytes:
-    """Decompress bytes of a recording, whose uncompressed size the file states.
+    """Decompress bytes of a recording; the file states the uncompressed size.
 
     Args:
         method: "", "none", "zstd", "lz4" or "bz2", as in the container.
@@ -116,8 +116,8 @@ class _Room:
 def _read_lz4(packed: bytes, room: memoryview) -> bool:
     """Decompress an lz4 frame, and return whether the frame fills the memory exactly.
 
-    The package `lz4` decompresses into new memory and copies the bytes, a seventh of its time.
-    This function calls the C library inside the package, which writes into the given memory.
+    The package `lz4` decompresses into new memory and copies the bytes, a seventh of its time. This
+    function calls the package's C library instead, and passes the given memory to it.
     """
     functions = _lz4_functions()
     if functions is None:

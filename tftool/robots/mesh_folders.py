@@ -1,4 +1,4 @@
-"""Search for the mesh files of a robot, which the 3-D view in the browser requests.
+"""Search for the robot's mesh files that the 3-D view in the browser requests.
 
 File names in a description are untrusted. Only meshes and textures inside the folders of
 `MeshFolders` are served. Absolute paths and `file://` are refused, and so are paths that leave

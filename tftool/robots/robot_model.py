@@ -240,19 +240,19 @@ class Robot:
         return buffer
 
     def leader(self, name: str, given: Collection[str] = ()) -> str:
-        """Return the name of the joint that a joint mimics in the end, or `name` if it mimics none.
+        """Return the joint that a chain of mimic joints leads to; `name` itself if it mimics none.
 
         Args:
-            name: The joint.
+            name: The joint at which the chain begins.
             given: Joints with a given position, which therefore do not mimic another joint.
         """
         return self._leader(self.joints[name], frozenset(given))[0].name
 
     def drive(self, name: str) -> tuple[str, float, float]:
-        """Return the joint that a joint mimics in the end, with a factor and an offset.
+        """Return the joint that a chain of mimic joints leads to, with a factor and an offset.
 
         Args:
-            name: The joint.
+            name: The joint at which the chain begins.
 
         Returns:
             Name of the mimicked joint (`name` itself if none), factor and offset: the position of
@@ -274,7 +274,7 @@ class Robot:
             raise UsageError(f"joint '{name}' is {joint.type}, so it has no position")
 
     def _leader(self, joint: RobotJoint, given: frozenset[str]) -> tuple[RobotJoint, float, float]:
-        """Return the joint that `joint` mimics in the end, with factor and offset; see `drive`."""
+        """Return the joint that `joint` mimics, also through other joints; see `drive`."""
         factor, offset = 1.0, 0.0
         leader, seen = joint, {joint.name}
         while leader.name not in given and leader.mimic is not None:

@@ -283,7 +283,7 @@ class _Reader:
 
     @contextlib.contextmanager
     def _left_out(self) -> Iterator[None]:
-        """Convert mistakes to notes in a `with` block that reads data without effect on frames.
+        """Turn mistakes in a `with` block into notes, because the block's data affects no frame.
 
         ROS's reader continues after mistakes in a link's appearance or mass, so robots run with
         such files.

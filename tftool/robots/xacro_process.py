@@ -118,10 +118,10 @@ def _expanded(path: str, arguments: dict[str, str]) -> dict[str, str]:
 
 
 def _as_installed(package: Path) -> Path:
-    """Return a folder like the share folder of a package after its installation by CMake.
+    """Return a folder with the layout that the package gets when CMake installs it.
 
     If CMakeLists.txt has `install(DIRECTORY description/urdf DESTINATION share/…)`, CMake copies
-    urdf/ beside package.xml, and a folder of symbolic links reproduces this. Else return `package`.
+    urdf/ beside package.xml. A folder of symbolic links reproduces this. Else return `package`.
     """
     try:
         text = (package / "CMakeLists.txt").read_text(encoding="utf-8", errors="replace")

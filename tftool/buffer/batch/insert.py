@@ -201,7 +201,7 @@ def adopt(
         link: Parent frame, child frame and authority (name of the sender).
         records: Samples in the memory layout of `History`, shape (n, 8): stamps and seven doubles.
         checked: Number of leading records that need no check: their stamps increase and their
-            quaternions have unit length and tf2's sign.
+            quaternions have unit length and the sign that tf2 computes.
 
     Returns:
         Whether all records were accepted. If not, nothing was changed, and `insert` must check them

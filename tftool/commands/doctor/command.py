@@ -83,7 +83,7 @@ def _marked(baseline: Baseline, source: str, diagnosis: Diagnosis | str) -> Diag
 
 
 def _identity(row: Mapping[str, Any]) -> str:
-    """Return the fingerprint of a finding; compute the fingerprint if the report lacks one."""
+    """Return the fingerprint of a finding, computed if the report has no fingerprint."""
     given = row.get("fingerprint")
     if isinstance(given, str):
         return given

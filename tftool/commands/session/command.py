@@ -85,7 +85,7 @@ def _as_object(link: Link, rates: dict[str, float]) -> dict[str, Any]:
 
 
 def _written(facts: dict[str, Any], *, verbose: bool) -> str:
-    """Format the facts about a session as text, which fits the size of a terminal."""
+    """Format the facts about a session as text that fits the terminal."""
     if not sys.stdout.isatty():
         return "\n".join(line.plain for line in view.lines(facts, verbose=verbose))
 

@@ -1,9 +1,9 @@
-"""Decision whether a command joins a session or hosts one, the same for all commands.
+"""Decision whether a command joins or hosts a session, the same for all commands.
 
 A named scenario is always hosted. Without a name, the command joins the running session of this
 machine, or hosts a session that other processes can join. Processes that only watch do not form a
-session, but wait for the next host. If a session is hosted already, a named scenario is not
-shared, so that the two worlds never mix.
+session, but wait for the next host. If a session is hosted already, a named scenario is not shared,
+so that the two worlds never mix.
 
 A command that works in a running world (``echo``, ``monitor``, ``view``) opens a session::
 
@@ -341,7 +341,7 @@ def _open_link(connection: Connection) -> tuple["Link | None", str]:
         The connection and "", or None and the reason why no connection is possible.
 
     Raises:
-        LinkError: If no connection is possible, but an option such as --join needs one.
+        LinkError: If no connection is possible, but an option such as --join needs a connection.
     """
     try:
         return connection.open_link(), ""

@@ -139,13 +139,13 @@ class FoldedLog:
         """Start with all counts at zero.
 
         Args:
-            prints_all: Whether to print every message, also repeated ones.
+            prints_all: Whether to print every message, including repeated messages.
         """
         self._whole = prints_all
         self._more: dict[tuple[str, str, str], tuple[LogRecord, int]] = {}
 
     def tell(self, record: "LogRecord") -> None:
-        """Print a log message; if an equal message was printed before, only count the new one."""
+        """Print a log message; only count the message if an equal message was printed before."""
         kind = (record.node, record.level, record.text)
         first, more = self._more.get(kind, (record, -1))
         self._more[kind] = (first, more + 1)

@@ -7,8 +7,8 @@ from tftool.commands.shared.options import Ascii, Light, argument, option
 class TeleopOptions(Command, hosts_turtles=True):
     """Drive a turtle with the arrow keys (ros2 run turtlesim turtle_teleop_key).
 
-    One press moves the turtle for a second. The eight letters around f turn the turtle to the
-    direction in which the key is from f, so t is north-east. f cancels a turn, q quits.
+    One press moves the turtle for a second. The eight letters around f turn the turtle in the
+    direction of the key, seen from f: t is north-east. f cancels a turn, q quits.
 
     tftool teleop
     tftool teleop turtle2

@@ -1,4 +1,4 @@
-"""Motion of one frame: poses over time, without outliers, which can be interpolated."""
+"""Motion of one frame: poses over time, without outliers, and their interpolation."""
 
 from dataclasses import dataclass
 from typing import Final, TypeAlias

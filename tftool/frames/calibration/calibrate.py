@@ -337,10 +337,7 @@ class _Solver:
         return best[1], best[2]
 
     def _judged(self, pairs: MotionPairs, fit: Fit, shown: _Shown) -> _Shown:
-        """Return `shown`, unless the second axis of rotation is only noise.
-
-        In that case, return the parts that the first axis determines.
-        """
+        """Return `shown`, or the parts that one axis determines if a second axis is only noise."""
         if shown.axis is not None:
             return shown
         values, vectors = np.linalg.eigh(pairs.turns_a.T @ pairs.turns_a / len(pairs.turns_a))
@@ -432,8 +429,8 @@ WIDTH: Final = 2.1
 def _doubt(sizes: Floats, shown: _Shown, halves: tuple[float, float] | None) -> tuple[float, float]:
     """Return two factors, at least 1, that widen the intervals of rotation and translation.
 
-    If the mounts from both halves of the recording differ by more than the interval, a bootstrap
-    missed an error, such as a wrong scale or a drift.
+    If the mounts from both halves of the recording differ by more than the interval, the
+    bootstrap missed an error, such as a wrong scale or a drift.
     """
     if halves is None:
         return 1.0, 1.0

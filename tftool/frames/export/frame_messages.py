@@ -137,7 +137,7 @@ def write_frames(
     force: bool = False,
     progress: Progress | None = None,
 ) -> int:
-    """Write all transforms of a buffer: first static transforms, then moving ones by stamp.
+    """Write all transforms of a buffer: first static transforms, then moving transforms by stamp.
 
     Args:
         buffer: Source of the transforms.
@@ -198,7 +198,7 @@ def _held(buffer: Buffer) -> "tuple[list[TransformStamped], Moving, int]":
 def _messages(
     statics: list[TransformStamped], moving: "Moving"
 ) -> Iterator[tuple[Stamp, list[TransformStamped]]]:
-    """Yield (time, transforms) of each message, first static ones, then moving ones by stamp."""
+    """Yield (time, transforms) of each message: static transforms, then moving ones by stamp."""
     stamps = np.concatenate([one[1] for one in moving]) if moving else np.array([], np.int64)
     order = np.argsort(stamps, kind="stable")
     start = int(stamps[order[0]]) if len(order) else NANOSECONDS

@@ -85,7 +85,7 @@ class StaticHeads:
 
     @property
     def topics(self) -> frozenset[str]:
-        """Return the topics of the static transforms at the start, which must be latched."""
+        """Return the topics of the static transforms at the start; these topics must be latched."""
         if not self.wanted:
             return frozenset()
         found = frozenset(one.channel.topic for one in self._statics)

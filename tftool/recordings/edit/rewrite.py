@@ -1,4 +1,4 @@
-"""Writer of changed recordings for `tftool edit`, which copies all unchanged bytes.
+"""Writer of changed recordings for `tftool edit`; all unchanged bytes are copied.
 
 Every chunk is copied if none of its messages change, else parsed and changed. Then the output is
 read back, and compared completely with the intended content. Finally the output gets its final
@@ -98,7 +98,7 @@ def edit(
 
 
 def _refuse_twice(inputs: Sequence[EditedInput]) -> None:
-    """Raise an error if a file is among the inputs twice, which would duplicate its messages.
+    """Raise an error if a file is among the inputs twice: its messages would be duplicated.
 
     Raises:
         UsageError: If a file is named twice, even by different paths.

@@ -297,7 +297,7 @@ def read_kitti(file: PoseFile) -> list[PoseLink]:
 
 
 def read_csv(file: PoseFile) -> list[PoseLink]:
-    """Return the links in a CSV file of `tftool export`, whose columns have names."""
+    """Return the links in a CSV file with named columns, as `tftool export` writes it."""
     links: dict[tuple[str, str], PoseLink] = {}
     columns: list[int] = []
     names: list[int] = []

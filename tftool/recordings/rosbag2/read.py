@@ -1,4 +1,4 @@
-"""Reader of rosbag2's sqlite files, which creates no lock or journal files in the folder.
+"""Reader of rosbag2's sqlite files, without lock or journal files in the folder.
 
 Messages are read in bulk, directly from the pages of the file. Only plain pages are read in this
 way. At the first unexpected page or row the reader stops, and sqlite itself continues after the
