@@ -1,6 +1,10 @@
 """Tests of threads in users' programs."""
 
+import sys
+
 import pytest
+
+from tftool.app.main import main
 
 
 def test_a_nodes_own_thread_takes_turns_too(ros_runtime, tmp_path):
@@ -149,3 +153,33 @@ rclpy.spin(node)
     assert ros_runtime.log("later") == ["begun True"]
     ros_runtime.sleep(0.2)
     assert ros_runtime.log("later") == ["begun True", "two"]
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows cannot copy a process")
+def test_a_child_of_multiprocessing_computes_ends_at_a_signal_and_may_not_use_rclpy(
+    tmp_path, capfd
+):
+    file = tmp_path / "pool.py"
+    file.write_text(
+        "import multiprocessing, time\n"
+        "import rclpy\n"
+        "fork = multiprocessing.get_context('fork')\n"
+        "def main():\n"
+        "    rclpy.init()\n"
+        "    with fork.Pool(2) as pool:\n"
+        "        print(pool.map(abs, [-1, -2]))\n"
+        "    child = fork.Process(target=time.sleep, args=(60,))\n"
+        "    child.start()\n"
+        "    child.terminate()\n"
+        "    child.join()\n"
+        "    print('ended by signal', -child.exitcode)\n"
+        "    child = fork.Process(target=rclpy.create_node, args=('n',))\n"
+        "    child.start()\n"
+        "    child.join()\n"
+        "    print('status', child.exitcode)\n"
+    )
+    assert main(["run", "--simulated", "--for", "3", str(file)]) == 0
+    out, err = capfd.readouterr()
+
+    assert out.splitlines() == ["[1, 2]", "ended by signal 15", "status 1"]
+    assert "a process that multiprocessing has started cannot use rclpy in tftool" in err

@@ -438,6 +438,11 @@ def current() -> Fiber | None:
     return getattr(_local, "fiber", None)
 
 
+def forget_current() -> None:
+    """Make the calling thread an ordinary thread, because its fiber runs in another process."""
+    _local.fiber = None
+
+
 def finish(future: "asyncio.Future[None]", _: object = None) -> None:
     """Set a future's result to None, unless the future is done.
 

@@ -6,6 +6,8 @@ runs. In tftool's world the program is a node; the rclpy nodes that it creates a
 
 import asyncio
 import inspect
+import os
+import signal
 import sys
 import threading
 import time
@@ -488,6 +490,11 @@ def current() -> Program:
         TftoolError: If the thread belongs to no program.
     """
     owner = running()
+    if owner is None and _is_forked:
+        raise TftoolError(
+            "a process that multiprocessing has started cannot use rclpy in tftool: use "
+            "threading.Thread, or run the nodes as programs of their own"
+        )
     if owner is None:
         raise TftoolError(
             "this rclpy is part of tftool and only works in a program that tftool runs: start "
@@ -495,3 +502,34 @@ def current() -> Program:
             "'ros_runtime'"
         )
     return owner
+
+
+_is_forked = False
+"""Whether this process is a copy of a process in which programs ran."""
+
+if sys.platform != "win32":
+    _SIGNALS = (signal.SIGINT, signal.SIGTERM)
+    _unblock = partial(signal.pthread_sigmask, signal.SIG_UNBLOCK, _SIGNALS)
+
+    def _after_fork() -> None:
+        """Detach a child process, such as one of multiprocessing, from its parent's world.
+
+        The world's event loop runs only in the parent, so each request of the child would wait for
+        ever. The parent's signal handlers would write the child's signals to the parent's stopper.
+        """
+        global _is_forked
+        if _living:
+            _is_forked = True
+            _living.clear()
+            fibers.forget_current()
+            signal.set_wakeup_fd(-1)
+            signal.signal(signal.SIGINT, signal.default_int_handler)
+            signal.signal(signal.SIGTERM, signal.SIG_DFL)
+        _unblock()
+
+    os.register_at_fork(
+        # A signal that arrives before the child is detached must wait until then.
+        before=partial(signal.pthread_sigmask, signal.SIG_BLOCK, _SIGNALS),
+        after_in_parent=_unblock,
+        after_in_child=_after_fork,
+    )
