@@ -419,6 +419,10 @@ def test_what_is_not_there_is_named(ros_runtime, tmp_path):
             "did you mean 'turtlesim/srv/Spawn'",
         ),
         (
+            ["service", "call", "/spawn_entity", "gazebo_msgs/SpawnEntity"],
+            "kind srv; the definitions of gazebo_msgs are not among tftool's: put the package",
+        ),
+        (
             ["service", "call", "/spawn", "turtlesim/srv/Spawn", "{y: 1, z: 2}"],
             r"Spawn_Request has no field 'z' \(it has x, y, theta, name\)",
         ),

@@ -105,13 +105,15 @@ def missing_package(name: str) -> str:
         {one.partition(".")[0] for one in import_table.table()} | set(INTERFACES.packages())
     )
     near = near_names(name, packages, alike=0.8)
-    if near:
-        return f"did you mean '{near[0]}'?"
+    hint = f"did you mean '{near[0]}'?" if near else ""
     if name.endswith(("_msgs", "_srvs", "_interfaces", "_actions")):
+        # Another package of ROS 2, such as nav2_msgs, may have a similar name.
         return (
-            f"the definitions of {name} are not among tftool's: put the package with its .msg, "
-            ".srv and .action files into the workspace's src"
+            f"{hint and f'{hint} If not, '}the definitions of {name} are not among tftool's: put "
+            "the package with its .msg, .srv and .action files into the workspace's src"
         )
+    if near:
+        return hint
     return (
         "the package is not installed in the Python that runs tftool; of ROS 2, tftool provides "
         f"{', '.join(one for one in packages if one not in INTERFACES.packages())} and "

@@ -9,6 +9,7 @@ from tftool.base.errors import InputError, UsageError
 from tftool.base.plain_text import did_you_mean
 from tftool.messages.classes import INTERFACES, Message
 from tftool.messages.schema import FLOATS
+from tftool.ros.host.error_text import missing_package
 
 
 def interface(name: str, kind: str) -> Any:
@@ -27,6 +28,8 @@ def interface(name: str, kind: str) -> Any:
         known = [f"{one}/{kind}/{n}" for one in INTERFACES.packages()
                  for n in INTERFACES.names(one, kind)]  # fmt: skip
         hint = did_you_mean(f"{package}/{kind}/{own}", known)
+        if own and package not in INTERFACES.packages():
+            hint = f"; {missing_package(package)}"
         raise UsageError(f"there is no interface '{name}' of kind {kind}{hint}")
     try:
         return INTERFACES.find(package, kind, own)

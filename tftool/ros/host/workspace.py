@@ -268,7 +268,7 @@ def missing_package(name: str, workspace: Workspace, provided: tuple[str, ...] =
         provided: Names of the packages that tftool provides.
     """
     known = [*workspace.packages, *provided]
-    near = near_names(name, known)
+    near = near_names(name, known, alike=0.8)
     hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(sorted(known))}"
     where = f"below {workspace.start} or in the src folder around it"
     skipped = "".join(f"\n{one}" for one in workspace.skipped)
