@@ -397,22 +397,6 @@ def test_the_command_ros2_of_a_child_process_is_refused_on_simulated_time(tmp_pa
     assert "'ros2 topic' would join a session" in err
 
 
-@pytest.mark.parametrize(("words", "told"), [(["--host", "--for", "5"], 1), (SIMULATED, 0)])
-def test_use_sim_time_is_warned_about_once_where_the_time_is_the_machines(
-    tmp_path, capsys, words, told
-):
-    file = tmp_path / "timed.py"
-    file.write_text(
-        "import rclpy\nfrom rclpy.parameter import Parameter\nrclpy.init()\n"
-        "for name in ('first', 'second'):\n"
-        "    given = [Parameter('use_sim_time', value=True)]\n"
-        "    rclpy.create_node(name, parameter_overrides=given)\n"
-    )
-    assert main(["run", *words, str(file)]) == 0
-
-    assert capsys.readouterr().err.count("'use_sim_time' has no effect") == told
-
-
 def interrupted(folder, line, *words):
     """Interrupt a command once it has printed a line; return its status and output."""
     environment = {**os.environ, "TFTOOL_SESSION_DIR": str(folder / "session")}

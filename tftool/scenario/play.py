@@ -64,6 +64,7 @@ class Play:
         """
         self.scenario = scenario
         self.world = World(clock, cache_time=scenario.cache_time)
+        self.world.has_own_time = True
         self.start: Stamp = clock.now()
         self.failure = ""
         for entry in scenario.nodes:

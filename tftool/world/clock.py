@@ -427,10 +427,11 @@ class FollowedClock(WallClock):
         """Create a clock that shows real time, or a fixed time until another time is set.
 
         Args:
-            fixed_time: Fixed time in nanoseconds; None for real time.
+            fixed_time: Fixed time in nanoseconds; None for real time. At time 0, which is not a
+                valid time, all waiters wait for the first time that is set.
             epoch: Time at which the clock began; None for `fixed_time` if given, else the present.
         """
-        super().__init__(epoch=fixed_time if epoch is None else epoch)
+        super().__init__(epoch=(fixed_time or None) if epoch is None else epoch)
         self.fell_back: Listeners[Duration] = Listeners()
         self._told = fixed_time
         self._first: asyncio.Future[None] | None = None
@@ -450,19 +451,19 @@ class FollowedClock(WallClock):
         Args:
             moment: Time in nanoseconds; 0 and less, which are not valid times, count as 1.
         """
-        before, is_first = self.now(), self._told is None
+        before, last_told = self.now(), self._told
         self._told = max(moment, 1)
         change = self._told - before
-        if is_first:
+        if not last_told:
             self.epoch = self._told
             # From here on, waiting in real time is no sign that a node blocks the loop.
             self.limit(None)
-        if is_first or change < 0:
+        if last_told is None or change < 0:
             self._shift(change)
         self._set_alarm()
         if self._first is not None:
             _set(self._first)
-        if change < 0 and not is_first:
+        if change < 0 and last_told is not None:
             self.fell_back.call(-change)
 
     async def wait_until_told(self, patience: Duration) -> None:
@@ -503,7 +504,7 @@ class FollowedClock(WallClock):
             self._alarm.cancel()
             self._alarm = None
         due = self._next_due()
-        if due is not None and due <= self._told:
+        if due is not None and 0 < self._told >= due:
             self._alarm = asyncio.get_running_loop().call_later(0, self._wake)
 
 

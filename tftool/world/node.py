@@ -9,7 +9,7 @@ from typing import Any, ClassVar, TypeVar
 from tftool.base.stamps import Duration, Stamp, as_seconds, seconds, whole
 from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import TransformStamped
-from tftool.world.clock import Clock, Phase
+from tftool.world.clock import Clock, FollowedClock, Phase
 from tftool.world.endpoints import TF, TF_STATIC, USUAL, Quality
 from tftool.world.node_parameters import Parameters, Value
 from tftool.world.supervisor import Resident
@@ -34,6 +34,7 @@ class Node(Resident):
         world: World that the node belongs to.
         name: Name in logs, also the authority of the node's transforms.
         rank: Number of the node in the order of joining the world.
+        clock: Clock that the node waits on: the world's clock, unless another one is set.
         phase: Phase in which the clock wakes the node, if several nodes are due at the same time.
     """
 
@@ -59,6 +60,7 @@ class Node(Resident):
         self.world = world
         self.name = name
         self.rank = 0
+        self.clock: Clock = world.clock
         self._stops: list[Callable[[], None]] = []
         self._publishers: dict[str, TopicPublisher[Any]] = {}
         world.add(self)
@@ -67,11 +69,6 @@ class Node(Resident):
     def parameters(self) -> Parameters:
         """Parameters of the node."""
         return Parameters(self.name)
-
-    @property
-    def clock(self) -> Clock:
-        """Clock of the node's world."""
-        return self.world.clock
 
     @property
     def buffer(self) -> Buffer:
@@ -122,8 +119,10 @@ class Node(Resident):
             missed = (self.clock.now() - due) // period
             if missed > CATCH_UP:
                 due += missed * period
-                # A short delay is not reported, because the user cannot avoid it.
-                if not slipped and missed * period >= LATE:
+                # A short delay is not reported, because the user cannot avoid it. A clock that
+                # another process sets may jump.
+                is_told = isinstance(self.clock, FollowedClock) and self.clock.is_told
+                if not (slipped or is_told) and missed * period >= LATE:
                     slipped = True
                     self.warn(
                         f"is {as_seconds(missed * period):.1f} s behind its own timer, because "

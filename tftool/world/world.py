@@ -106,6 +106,8 @@ class World:
         clients: Clients of services, of the nodes of all processes.
         far_nodes: Names of the nodes of other processes, in alphabetical order.
         failure: Error that names the node whose exception ended the run; None if no node failed.
+        has_own_time: Whether users' nodes ignore `use_sim_time` and `/clock`, because the time of
+            this world is the time of a simulation: on simulated time, and in a scenario.
     """
 
     def __init__(
@@ -126,6 +128,7 @@ class World:
                 `memory_limit.allowed`.
         """
         self.clock = clock
+        self.has_own_time = isinstance(clock, SimClock)
         self.log = Log(clock.now, report=self.report)
         self._is_reporting = False
         self.buffer = buffer or Buffer(cache_time, log=self._log_buffer, report=self.report)

@@ -31,9 +31,9 @@ def reading(moment):
 
 
 @contextlib.contextmanager
-def joined(role="guest"):
-    """Yield the connection, the world of a host, and the world of a guest whose clock follows."""
-    host, guest = World(WallClock()), World(FollowedClock())
+def joined(role="guest", clock=FollowedClock):
+    """Yield the connection, the world of a host, and the world of a guest with a clock."""
+    host, guest = World(WallClock()), World(clock())
     links = [Link(Options(name, reach=MemoryReach())) for name in ("play", "echo")]
     links[0].attach(host, role=Role.HOST)
     try:
@@ -88,5 +88,46 @@ def test_transforms_before_the_first_clock_message_are_not_called_years_old():
             assert not guest.clock.is_told
             assert [one.text for one in guest.log.records if "clock" in one.text] == []
             clock.close()
+
+    run(WallClock(), follow())
+
+
+def test_a_world_with_a_clock_of_its_own_forgets_transforms_where_clock_falls_back():
+    async def follow():
+        with joined(clock=WallClock) as (link, host, guest):
+            publisher = host.publisher("player", "clock", CLOCK, Quality())
+            topic = host.topic("clock", CLOCK)
+            await until(lambda: topic.far_subscribers and is_clock_shown(link.graph))
+
+            # The buffer keeps ten seconds, so it would reject the second transform.
+            for moment, frame in ((seconds(90), "first"), (seconds(20), "second")):
+                host.buffer.clear()
+                publisher.publish(reading(moment))
+                told, last = guest.topic("clock", CLOCK), reading(moment)
+                await until(lambda told=told, last=last: told.latest == last)
+                sent = TransformStamped(moment, "a", "b", Transform())
+                named = TransformStamped(moment, "a", frame, Transform())
+                host.broadcast([sent, named], "player")
+                await until(lambda frame=frame: guest.buffer.frame_exists(frame))
+
+            assert guest.buffer.lookup_transform("a", "b").stamp == seconds(20)
+            assert guest.clock.now() > seconds(10**9)
+            assert [one.text for one in guest.log.records if one.level == "WARN"] == []
+
+    run(WallClock(), follow())
+
+
+def test_a_late_transform_of_the_last_round_of_a_playback_is_no_fast_clock():
+    async def follow():
+        with joined() as (link, host, guest):
+            publisher = host.publisher("player", "clock", CLOCK, Quality())
+            topic = host.topic("clock", CLOCK)
+            await until(lambda: topic.far_subscribers and is_clock_shown(link.graph))
+            publisher.publish(reading(seconds(20)))
+            await until(lambda: guest.clock.is_told)
+
+            host.broadcast([TransformStamped(seconds(90), "a", "b", Transform())], "node")
+            await until(lambda: guest.buffer.frame_exists("b"))
+            assert [one.text for one in guest.log.records if "clock" in one.text] == []
 
     run(WallClock(), follow())

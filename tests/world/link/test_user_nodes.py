@@ -1,5 +1,6 @@
 """Tests of users' nodes, each started by a separate `tftool run`, as in several terminals."""
 
+import re
 import sys
 from pathlib import Path
 
@@ -119,3 +120,52 @@ def test_who_only_looks_is_told_that_nobody_gets_what_its_nodes_send(tmp_path):
             launch.says(told)
             assert launch.end() == 0
         assert "I heard" not in listener.text
+
+
+WHEN = """
+import rclpy
+
+rclpy.init()
+node = rclpy.create_node("when")
+
+def tell():
+    began = node.get_clock().now().nanoseconds
+    if began:
+        node.get_logger().info(f"time {began // 10**9}")
+        rclpy.shutdown()
+
+node.create_timer(0.1, tell)
+try:
+    rclpy.spin(node)
+except rclpy.executors.ExternalShutdownException:
+    pass
+"""
+
+
+@pytest.mark.parametrize("command", ["run", "launch"])
+def test_beside_a_playback_only_nodes_with_use_sim_time_have_its_time(tmp_path, command):
+    recording, file = tmp_path / "run.mcap", tmp_path / "when.py"
+    file.write_text(WHEN)
+    (tmp_path / "when.launch.py").write_text(
+        "from launch import LaunchDescription\n"
+        "from launch.substitutions import LaunchConfiguration\n"
+        "from launch_ros.actions import Node\n"
+        "def generate_launch_description():\n"
+        "    given = {'use_sim_time': LaunchConfiguration('simulated', default='false')}\n"
+        f"    return LaunchDescription([Node(executable={str(file)!r}, parameters=[given])])\n"
+    )
+    program, further = {
+        "run": (file, ("--ros-args", "-p", "use_sim_time:=true")),
+        "launch": (tmp_path / "when.launch.py", ("simulated:=true",)),
+    }[command]
+    with Process("export", "robot", "-o", recording) as export:
+        assert export.end() == 0
+    with Process("play", recording, "--paused") as play:
+        with Process(command, program, *further) as told:
+            assert told.end() == 0
+        with Process(command, program) as untold:
+            assert untold.end() == 0
+        assert play.interrupt() == 130
+    # The recording begins at 1000 s; the machine's time counts from 1970.
+    assert "[when]: time 1000" in told.text
+    assert re.search(r"\[when\]: time \d{10}", untold.text)

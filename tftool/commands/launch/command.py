@@ -7,8 +7,8 @@ from tftool.base.errors import NodeFailed, TftoolError, UsageError
 from tftool.base.exit_status import ExitStatus
 from tftool.base.plain_text import visible, visible_lines
 from tftool.commands.launch import LaunchOptions
-from tftool.commands.shared.connection import Connection, Mode
-from tftool.commands.shared.hosting import open_empty_session, open_session, tell_where_to_look
+from tftool.commands.shared.connection import NO_SESSION, Connection, Mode
+from tftool.commands.shared.hosting import open_empty_session, open_own_session, tell_where_to_look
 from tftool.commands.shared.notices import notice, tell_log
 from tftool.commands.shared.options import refuse_long_simulation
 from tftool.ros import running
@@ -37,7 +37,7 @@ def run(connection: Connection, options: LaunchOptions) -> ExitStatus:
             sys.stdout.write(visible_lines(show_arguments(path, workspace)) + "\n")
             return ExitStatus.DONE
         if connection.mode is Mode.JOIN and not options.simulated:
-            session = open_session(connection, head_start=0)
+            session = open_own_session(connection, simulated=False, because=NO_SESSION)
         else:
             # A launch starts all nodes it needs: its world is empty at first, but still shared.
             session = open_empty_session(connection, simulated=options.simulated)

@@ -24,7 +24,7 @@ class PlayOptions(Command, recordings=True):
 
     The recorded transforms are broadcast in the order of reception, static transforms first, under
     the names of their nodes if these are recorded. /clock is published too, for other tftool
-    commands, and for ROS 2 nodes with use_sim_time. 'tftool view', 'tftool echo' and your own nodes
+    commands, and for nodes with use_sim_time. 'tftool view', 'tftool echo' and your own nodes
     receive everything live.
 
     A terminal shows the timeline with the doctor's findings, the topics and the frames. Space

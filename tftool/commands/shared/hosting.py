@@ -67,6 +67,7 @@ def join_or_host(
     *,
     needs_turtles: bool = False,
     cache_time: Duration | None = None,
+    follows: bool = True,
 ) -> JoinDecision:
     """Join the running session, or return the connection through which to share a new session.
 
@@ -75,6 +76,7 @@ def join_or_host(
         word: Name of a scenario to host; None to join the running session if there is one.
         needs_turtles: Whether to join only a session with a turtle simulator.
         cache_time: Cache time of a joined world's buffer, nanoseconds.
+        follows: Whether a joined world has the time of `/clock` if another process publishes it.
 
     Raises:
         LinkError: If an option such as --join requires a session, but none runs, or no
@@ -90,9 +92,10 @@ def join_or_host(
         # With --connect, the user wants the world on the other machine, even if it starts later;
         # hosted turtles would mix with a robot's frames.
         if connection.only_observes or (there and (not needs_turtles or _has_host(link))):
+            given = connection.providers
             session = joined_session(
                 link,
-                connection.providers.joined_clock(),
+                given.joined_clock() if follows else given.wall_clock(),
                 connection.place,
                 cache_time=cache_time,
                 tell=tell_news,
@@ -268,6 +271,8 @@ def refuse_moment(connection: Connection) -> None:
 def open_own_session(connection: Connection, *, simulated: bool, because: str) -> Session:
     """Join the running session, or host an empty world for a user's program.
 
+    The world has the time of the machine: users' nodes with `use_sim_time` follow `/clock`.
+
     Args:
         connection: Connection of the command.
         simulated: Whether a hosted world uses simulated time.
@@ -282,7 +287,7 @@ def open_own_session(connection: Connection, *, simulated: bool, because: str) -
         connection.refuse_to_share(None)
         world = World(SimClock())
     else:
-        joined = join_or_host(connection, None)
+        joined = join_or_host(connection, None, follows=False)
         if joined.session is not None:
             return joined.session
         link = joined.link

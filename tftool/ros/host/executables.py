@@ -12,11 +12,13 @@ from tftool.base.errors import UsageError
 from tftool.base.plain_text import did_you_mean
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.notation import static_arguments
-from tftool.ros.host import importing, user_code
+from tftool.messages.classes import INTERFACES
+from tftool.ros.host import importing, user_code, values
 from tftool.ros.host.error_text import undeclared
 from tftool.ros.host.names import RosOptions, expand, join, named_twice
-from tftool.ros.host.program import Program, warn_of_sim_time
+from tftool.ros.host.program import Program, warn_without_clock
 from tftool.ros.host.workspace import Workspace, missing_package
+from tftool.world.clock import FollowedClock
 from tftool.world.node import Node
 from tftool.world.nodes.broadcasters import (
     Broadcaster,
@@ -408,8 +410,12 @@ def _start_ours(
     node = make(NodeRequest(world, full, namespace, arguments, parameters, options))
     if full in world.far_nodes:
         node.warn(named_twice(full))
-    if parameters.pop("use_sim_time", None) is True:
-        warn_of_sim_time(world, node.warn)
+    if parameters.pop("use_sim_time", None) is True and not world.has_own_time:
+        # Time 0 until the first message, as in ROS.
+        clock = node.clock = FollowedClock(0)
+        kind: Any = INTERFACES.message("rosgraph_msgs/Clock")
+        node.subscribe("clock", kind, lambda message: clock.tell(values.stamp_of(message.clock)))
+        warn_without_clock(world, node.warn)
     _warn_of_unused(node, parameters, declared)
     return node
 

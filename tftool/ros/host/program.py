@@ -20,7 +20,8 @@ from tftool.base.stamps import NANOSECONDS, Duration, Stamp, seconds
 from tftool.ros.host import fibers
 from tftool.ros.host.fibers import CodeLine, Fiber
 from tftool.ros.host.names import RosOptions
-from tftool.world.clock import FollowedClock, Phase, SimClock
+from tftool.world.clock import Phase, SimClock
+from tftool.world.endpoints import PUBLISHER
 from tftool.world.log import Level
 from tftool.world.node import Node
 from tftool.world.world import World
@@ -442,18 +443,29 @@ async def _as_coroutine(request: Callable[[], Any]) -> Any:
     return await value if isinstance(value, Awaitable) else value
 
 
-IGNORED_SIM_TIME = (
-    "'use_sim_time' has no effect: no other process of this session publishes /clock, so the nodes "
-    "have the time of this machine. Start 'tftool play' first, or add --simulated"
+NO_CLOCK = (
+    "'use_sim_time' is true, but no node publishes /clock: the time stays 0, and no timer calls "
+    "its callback. Start 'tftool play' or a simulator, or leave out use_sim_time"
 )
 
+UNTIL_CLOCK = seconds(2.0)
+"""Nanoseconds to wait for a publisher of `/clock` before the warning."""
 
-def warn_of_sim_time(world: World, say: Callable[[str], object]) -> None:
-    """Call `say`, once in each world, if the parameter use_sim_time has no effect there."""
-    clock = world.clock
-    is_set = isinstance(clock, SimClock) or (isinstance(clock, FollowedClock) and clock.is_told)
-    if not is_set and all(one.text != IGNORED_SIM_TIME for one in world.log.records):
-        say(IGNORED_SIM_TIME)
+
+def warn_without_clock(world: World, say: Callable[[str], object]) -> None:
+    """Call `say`, once in each world, if no node publishes `/clock` in the next seconds.
+
+    Call this in the event loop's thread. In a world that has its own time, do nothing.
+    """
+
+    def check(_: object) -> None:
+        is_said = any(one.text == NO_CLOCK for one in world.log.records)
+        if not (is_said or world.endpoints.of("clock", PUBLISHER)):
+            say(NO_CLOCK)
+
+    if not world.has_own_time:
+        timer = world.clock.timer(world.clock.now() + UNTIL_CLOCK, Phase.WATCH)
+        timer.add_done_callback(check)
 
 
 def set_program_of_thread(program_of_thread: "Callable[[], Program | None] | None") -> None:

@@ -35,6 +35,7 @@ from tftool.ros.rclpy.qos import (
 from tftool.ros.rclpy.qos_events import EndpointWatch
 from tftool.ros.rclpy.services import Client, Service
 from tftool.ros.rclpy.time import Clock, Duration, Rate, ROSClock
+from tftool.ros.rclpy.time_source import TimeSource
 from tftool.ros.rclpy.topics import Publisher, RosoutPublisher, Subscription
 from tftool.ros.rclpy.validation import validate_namespace, validate_node_name
 
@@ -85,9 +86,9 @@ class Node(NodeGraph, NodeParameters):
             allow_undeclared_parameters,
             automatically_declare_parameters_from_overrides,
         )
-        if self._parameters["use_sim_time"].value is True:
-            say = partial(owner.say, "WARN", self._tftool.authority)
-            owner.ask(partial(program.warn_of_sim_time, owner.world, say))
+        if not owner.world.has_own_time:
+            self._time_source = TimeSource(node=self)
+            self._time_source.attach_clock(self._clock)
         if enable_rosout and options.logs_to_rosout:
             profile = rosout_qos_profile or qos_profile_rosout_default
             kind = INTERFACES.message("rcl_interfaces/Log")

@@ -19,6 +19,7 @@ from tftool.ros.rclpy.exceptions import (
 from tftool.ros.rclpy.node_state import NodeState
 from tftool.ros.rclpy.parameter import Parameter, Type
 from tftool.ros.rclpy.qos import qos_profile_parameter_events
+from tftool.ros.rclpy.time import Clock
 from tftool.ros.rclpy.topics import Publisher
 from tftool.ros.rclpy.validation import validate_parameter_name
 from tftool.world.node_parameters import Answer, list_result, parameter_services, value_of
@@ -30,6 +31,8 @@ Setter = Callable[[list[Parameter]], Any]
 
 class NodeParameters:
     """Methods of a node that declare, read and set its parameters."""
+
+    _clock: Clock
 
     def _start_parameters(
         self,
@@ -71,7 +74,7 @@ class NodeParameters:
             state = self.__events.node_state
             self.__events.publish(
                 self.__events.msg_type(
-                    stamp=values.time_message(state.world.clock.now()),
+                    stamp=values.time_message(self._clock.reading()),
                     node=f"/{names.join(state.namespace, state.name)}",
                     new_parameters=[one.to_parameter_msg() for one in new],
                     changed_parameters=[one.to_parameter_msg() for one in changed],

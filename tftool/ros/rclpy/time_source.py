@@ -1,15 +1,16 @@
 """Class TimeSource of rclpy.time_source, which sets clocks to the times on the topic `/clock`.
 
-A node's own clock needs no `TimeSource`, because the clock shows tftool's time. Programs rarely
-create a `TimeSource`, but tests do. The parameter `use_sim_time` of the attached node switches the
-`TimeSource` on.
+The parameter `use_sim_time` of the attached node switches the `TimeSource` on. Every node has a
+`TimeSource` for its clock, except in a world that has its own time.
 """
 
+from functools import partial
 from typing import Any
 
 from tftool.messages.classes import INTERFACES
-from tftool.ros.rclpy.node import Node
+from tftool.ros.host.program import warn_without_clock
 from tftool.ros.rclpy.node_parameters import set_result
+from tftool.ros.rclpy.node_state import state_of
 from tftool.ros.rclpy.parameter import Parameter
 from tftool.ros.rclpy.qos import QoSProfile, ReliabilityPolicy
 from tftool.ros.rclpy.time import ClockType, ROSClock, Time
@@ -54,6 +55,9 @@ class TimeSource:
             self._clock_sub = self._node.create_subscription(
                 kind, CLOCK_TOPIC, self.clock_callback, qos
             )
+            state = state_of(self._node)
+            say = partial(state.program.say, "WARN", state.authority)
+            state.program.ask(partial(warn_without_clock, state.world, say))
 
     def _unsubscribe(self) -> None:
         if self._node is not None and self._clock_sub is not None:
@@ -66,8 +70,7 @@ class TimeSource:
         Raises:
             TypeError: If the object is not a node.
         """
-        if not isinstance(node, Node):
-            raise TypeError("Node must be of type rclpy.node.Node")
+        state_of(node)
         if self._node is not None:
             self.detach_node()
         self._node = node

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable
 from functools import partial
 from typing import Any
 
-from tftool.base.stamps import as_seconds, seconds
+from tftool.base.stamps import Stamp, as_seconds, seconds
 from tftool.buffer.callbacks import Watch
 from tftool.buffer.sample import TransformStamped
 from tftool.messages.classes import INTERFACES
@@ -72,7 +72,7 @@ class TransformListener:
         )
 
         def insert(message: TransformMessage, *, static: bool) -> None:
-            watch.read(world.clock.now())
+            watch.read(_time_of_stamps(self._member))
             arrivals.note()
             # Read the attribute each time, because a program may give the listener another buffer.
             frames = self.buffer.frames
@@ -97,6 +97,19 @@ class TransformListener:
     def unregister(self) -> None:
         """Unsubscribe from `/tf` and `/tf_static`; the buffer then gets no further transforms."""
         self._member.program.ask(self._stop)
+
+
+def _time_of_stamps(state: NodeState) -> Stamp:
+    """Return the present time of a node's clock, in nanoseconds, for transforms that arrive.
+
+    If the clock follows `/clock`, this is the last time that arrived, even if the executor of the
+    node has not set the clock to it yet: after a jump back, transforms may arrive before that.
+    """
+    clock = state.ros_node.get_clock()
+    if not clock.is_overridden:
+        return int(clock.reading())
+    message: Any = state.world.topic("clock", INTERFACES.message("rosgraph_msgs/Clock")).latest
+    return 0 if message is None else values.stamp_of(message.clock)
 
 
 class StaticTransformListener(TransformListener):
@@ -220,7 +233,7 @@ class TransformBroadcaster:
 
     def _check_sample(self, sample: TransformStamped) -> None:
         """Log a warning, once per child frame, if the stamp is 0 or the rotation looks wrong."""
-        now = self._member.world.clock.now()
+        now = self.node.get_clock().reading()
         if not (self._static or sample.stamp) and now > seconds(1.0):
             self._report_once(
                 "stamp",

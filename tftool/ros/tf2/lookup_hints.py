@@ -1,6 +1,7 @@
 """Hints for the user about transform lookups that fail repeatedly."""
 
 from collections.abc import Iterator
+from typing import Any
 
 from tftool.base.errors import (
     ConnectivityException,
@@ -12,6 +13,7 @@ from tftool.base.stamps import Stamp, as_seconds, seconds
 from tftool.buffer.buffer import Buffer as Frames
 from tftool.buffer.sample import FrameInfo
 from tftool.ros.host.program import Program
+from tftool.world.endpoints import PUBLISHER
 
 PATIENCE = seconds(3.0)
 """Nanoseconds of failures, without a success, after which the reason is logged."""
@@ -21,6 +23,10 @@ MANY = 10
 
 ONCE = seconds(2.0)
 """Nanoseconds of age after which a frame's only sample counts as sent once."""
+
+
+TIME_SOURCE = "time source"
+"""Key of the hint that a node needs `use_sim_time`."""
 
 
 class LookupHints:
@@ -47,10 +53,12 @@ class LookupHints:
     def record_wait(self) -> None:
         """Record that the program waits for transforms, or tests whether they are available."""
         self._waits = True
+        self._check_source_of_time()
 
     def record_success(self, target: str, source: str, time: Stamp) -> None:
         """Record a lookup that succeeded."""
         self._asked += 1
+        self._check_source_of_time()
         self._refused_since.pop((target, source), None)
         # On simulated time a transform arrives in the instant of its stamp; over a network it does
         # not.
@@ -60,6 +68,7 @@ class LookupHints:
     def record_failure(self, target: str, source: str, error: TransformException) -> None:
         """Record a lookup that failed; log the reason if it has failed for a long time."""
         self._asked += 1
+        self._check_source_of_time()
         now = self._program.clock.now()
         since = self._refused_since.setdefault((target, source), now)
         lasts = now - since >= PATIENCE
@@ -68,7 +77,9 @@ class LookupHints:
             if lasts and isinstance(error, LookupException):
                 self._say_missing(error)
         elif isinstance(error, ExtrapolationException):
-            once = next(self._sent_once(target, source, now), None) if lasts else None
+            # The age of transforms counts on the clock of their stamps.
+            present = next((clock.reading() for clock in self._clocks_by_messages()), now)
+            once = next(self._sent_once(target, source, present), None) if lasts else None
             if once is not None:
                 # The time is not the cause of these failures.
                 self._early = 0
@@ -80,7 +91,11 @@ class LookupHints:
                 )
             elif error.requested > error.available:
                 self._early += 1
-                if self._early >= MANY and not self._program.strict and self._is_early:
+                if (
+                    self._early >= MANY
+                    and not (self._program.strict or TIME_SOURCE in self._said)
+                    and self._is_early
+                ):
                     self._say("early", self._early_text())
 
     def record_failed_check(self, target: str, source: str) -> None:
@@ -96,6 +111,27 @@ class LookupHints:
                 self._say_missing(error)
             except TransformException:
                 pass
+
+    def _check_source_of_time(self) -> None:
+        """Log a warning if stamps are likely the times of `/clock`, but the nodes ignore it."""
+        world = self._program.world
+        if (
+            TIME_SOURCE not in self._said
+            and not world.has_own_time
+            and world.endpoints.of("clock", PUBLISHER)
+            and not any(self._clocks_by_messages())
+        ):
+            self._say(
+                TIME_SOURCE,
+                "the transforms may have the time of /clock, but the nodes of this program have "
+                "the time of the machine: set use_sim_time, as with --ros-args -p "
+                "use_sim_time:=true",
+            )
+
+    def _clocks_by_messages(self) -> Iterator[Any]:
+        """Yield the clocks of the program's nodes that show the time of `/clock`."""
+        clocks = (state.ros_node.get_clock() for state in self._program.nodes)
+        return (clock for clock in clocks if clock.is_overridden)
 
     def summary(self) -> str:
         """Return a hint about lookups at times newer than the data; "" if there were few."""

@@ -207,8 +207,9 @@ def shared(link: "Link | None", world: World, role: str = "host") -> Iterator[No
     try:
         link.attach(world, role=Role(role))
         # A player sets its own clock, which shows the recording's time from the start.
-        if isinstance(world.clock, FollowedClock) and not world.clock.is_told:
-            follower = ClockFollower(world, world.clock)
+        is_player = isinstance(world.clock, FollowedClock) and world.clock.is_told
+        if not (is_player or world.has_own_time):
+            follower = ClockFollower(world)
         yield
     finally:
         if follower is not None:

@@ -5,7 +5,7 @@ from typing import Any, Final
 
 from tftool.base.errors import MalformedMessage
 from tftool.base.stamps import NANOSECONDS, Duration, Stamp, as_seconds, seconds
-from tftool.buffer.callbacks import FELL_BACK, must_clear
+from tftool.buffer.callbacks import FELL_BACK, Watch, must_clear
 from tftool.buffer.sample import TransformStamped
 from tftool.messages.classes import INTERFACES
 from tftool.messages.codec import codec
@@ -315,11 +315,14 @@ class TransformBridge:
 
     def _compare_clocks(self, stamp: Stamp, authority: str) -> None:
         clock, graph = self._link.world.clock, self._link.graph
-        if isinstance(clock, FollowedClock) and not clock.is_told and is_clock_shown(graph):
-            return  # the first time from /clock will arrive soon
+        is_told = isinstance(clock, FollowedClock) and clock.is_told
+        if is_clock_shown(graph) and not is_told:
+            return  # the first time from /clock will arrive soon, or only nodes follow /clock
         ahead = stamp - clock.now()
         if -YEAR < ahead < AHEAD:
             return
+        if is_told and abs(ahead) < YEAR:
+            return  # a playback in a loop, where nodes still send stamps of the last round
         if 0 < ahead < YEAR:
             self._link.say_once(
                 "clock ahead",
@@ -364,28 +367,32 @@ def is_clock_shown(graph: Graph) -> bool:
 
 
 class ClockFollower:
-    """Subscriber that sets a world's clock from `/clock` of another process."""
+    """Subscriber that sets a world's clock from `/clock` of another process.
 
-    def __init__(self, world: World, clock: FollowedClock) -> None:
-        """Set the clock from `/clock` as soon as another process publishes this topic.
+    If the time on `/clock` falls back, the transforms in the world's buffer are removed, even if
+    the world has a clock of its own: the buffer would reject the transforms that follow.
+    """
+
+    def __init__(self, world: World) -> None:
+        """Follow `/clock` as soon as another process publishes this topic.
 
         Args:
-            world: World whose connection receives `/clock`.
-            clock: Clock to set.
+            world: World whose connection receives `/clock`. Its clock is set if it is a
+                `FollowedClock`.
         """
         self._world = world
-        self._clock = clock
+        self._clock = world.clock if isinstance(world.clock, FollowedClock) else None
+        self._watch = Watch(world.buffer.clear)
         self._stop_listening: Callable[[], None] | None = None
         self._falls = Repeats()
         self._is_looking = False
-        self._stops = [
-            clock.fell_back.add(self._fell_back, NAME),
-            world.watch(self._look, NAME),
-        ]
+        self._stops = [world.watch(self._look, NAME)]
+        if self._clock is not None:
+            self._stops.append(self._clock.fell_back.add(self._fell_back, NAME))
         self._look()
 
     def close(self) -> None:
-        """Stop setting the clock from `/clock`."""
+        """Stop following `/clock`."""
         for stop in self._stops:
             stop()
         if self._stop_listening is not None:
@@ -406,13 +413,17 @@ class ClockFollower:
             elif not is_published and self._stop_listening is not None:
                 self._stop_listening()
                 self._stop_listening = None
-                self._clock.run_on()
+                if self._clock is not None:
+                    self._clock.run_on()
         finally:
             self._is_looking = False
 
     def _take(self, message: Any) -> None:
-        time = message.clock
-        self._clock.tell(time.sec * NANOSECONDS + time.nanosec)
+        moment = message.clock.sec * NANOSECONDS + message.clock.nanosec
+        if self._clock is not None:
+            self._clock.tell(moment)
+        else:
+            self._watch.read(moment)
 
     def _fell_back(self, by: Duration) -> None:
         if must_clear(-by):
