@@ -163,7 +163,7 @@ def test_show_args_prints_what_a_file_takes(capsys):
         ),
         (["run", *SIMULATED, "."], 2, "'.' is a folder: give a node's file, or PACKAGE EXECUTABLE"),
         (["launch", "nothing", "x"], 2, "there is no package 'nothing' below"),
-        (["launch", "learning_robot", "x"], 2, "; there are learning_tf, pkg_tf"),
+        (["launch", "learning_robots", "x"], 2, "; there are learning_tf, pkg_tf"),
         (["launch", "pkg_tf", "carrot.launch.xml", "x"], 2, "'x' is not a launch argument"),
         (["launch", "pkg_tf", "carrot.launch.xml", "sorce_frame:=x"], 2, "mean 'source_frame"),
         (["launch", "pkg_tf", "carrot.launch.xml", "--simulated"], 2, "add --for SECONDS"),
