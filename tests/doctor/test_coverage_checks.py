@@ -101,6 +101,15 @@ def test_statics_that_are_missing_explain_frames_that_are_unknown():
     assert found(made, "unknown-frame").because_of == "static-missing"
 
 
+def test_a_missing_static_is_named_without_the_slash_of_its_messages():
+    made = robot(laser=False, scans=False)
+    made.hears("/scan", "/laser")
+    finding = found(made, "static-missing")
+    assert finding.message.startswith("no transform names laser:")
+    assert finding.fixes[-1].text.startswith("and set the frame_id of /scan without its leading")
+    assert found(made, "unknown-frame").because_of == "static-missing"
+
+
 def test_a_recording_without_statics_of_a_robot_at_rest_lacks_their_topic():
     made = Robot()
     made.moving("odom", "base_link", pose=stands)

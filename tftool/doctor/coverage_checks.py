@@ -67,15 +67,18 @@ def static_missing(model: Model, limits: Limits) -> Iterator[Hit]:
         cure = (
             "look whether robot_state_publisher runs; if not, start it with the robot's description"
         )
-    names = sorted({heard.frame for heard in unknown})
+    names = sorted({heard.frame.removeprefix("/") for heard in unknown})
     fixes = [Fix(cure)]
     if not model.lacks_state_publisher:
-        child = names[0].removeprefix("/")
-        command = static_publisher("PARENT", child, ros1=is_ros1(model.evidence))
+        command = static_publisher("PARENT", names[0], ros1=is_ros1(model.evidence))
         each = " for each of the frames" if len(names) > 1 else ""
         fixes.append(Fix(f"if nothing sends them, publish the mount{each}:", command))
+    slashed = sorted({heard.topic for heard in unknown if heard.frame.startswith("/")})
+    if slashed:
+        text = f"and set the frame_id of {several(slashed, 3)} without its leading slash"
+        fixes.append(Fix(f"{text}: no frame of tf2 begins with a slash"))
     yield Hit(
-        frames=tuple(names),
+        frames=tuple(sorted({heard.frame for heard in unknown})),
         topics=tuple(sorted({heard.topic for heard in unknown})),
         count=sum(len(heard.stamps) for heard in unknown),
         facts={
