@@ -265,3 +265,19 @@ def test_a_buffer_is_cleared_where_the_time_on_clock_falls_back(printed):
 
     assert out[-1] == "[False, True]"
     assert err.count("Detected jump back in time. Clearing tf buffer.") == 1
+
+
+def test_a_shutdown_ends_a_sleep_on_a_clock_that_stands_still(printed):
+    out, _ = printed("""
+node, answers = with_time("node"), []
+def sleep():
+    answers.append(node.get_clock().sleep_for(Duration(seconds=1)))
+thread = threading.Thread(target=sleep)
+thread.start()
+time.sleep(0.2)
+rclpy.shutdown()
+thread.join()
+print(answers)
+""")
+
+    assert out == ["[False]"]

@@ -220,11 +220,15 @@ class Clock:
         """Block until a time on this clock; return False if the program or context ends earlier."""
         if until.clock_type != self._clock_type:
             raise ValueError("until's clock type does not match this clock's type")
-        return self._sleep(until.nanoseconds - self.now().nanoseconds, context)
+        return self._sleep(until.nanoseconds - self.now().nanoseconds, self._chosen(context))
 
     def sleep_for(self, rel_time: Duration, context: Any = None) -> bool:
         """Block for a duration; return False if the program or context ends earlier."""
-        return self._sleep(rel_time.nanoseconds, context)
+        return self._sleep(rel_time.nanoseconds, self._chosen(context))
+
+    def _chosen(self, context: Any) -> Any:
+        """Return the given context, else the program's default context, None if not used yet."""
+        return context or self._program.context
 
     def _sleep(self, duration: int, context: Any) -> bool:
         """Sleep `duration` nanoseconds on this clock; return False if the sleep ends earlier."""
