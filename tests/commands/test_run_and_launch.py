@@ -231,6 +231,12 @@ NODE = "import rclpy\nrclpy.init()\nnode = rclpy.create_node('mine')\n"
             1,
             "did you mean 'nav_msgs'? If not, the definitions of nav2_msgs are not among tftool's",
         ),
+        (
+            "from interfaces.msg import Telemetry\n",
+            1,
+            "did you mean 'rcl_interfaces'? If not, the definitions of interfaces are",
+        ),
+        ("from my_types.srv import Add\n", 1, "the definitions of my_types are not among"),
         ("import my_msgs.msg\n", 1, "put the package with its .msg, .srv and .action files into"),
         ("import rclpy\nrclpy.nope\n", 1, "'nope' of rclpy is not supported"),
         ("import cv_bridge\n", 1, "No module named 'cv_bridge'"),

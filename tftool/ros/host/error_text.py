@@ -95,18 +95,20 @@ def missing_module(name: str) -> str:
     return f"{name} is not supported{hint} {_sentence(WHERE_TO_LOOK)}"
 
 
-def missing_package(name: str) -> str:
+def missing_package(name: str, use: str = "") -> str:
     """Return advice for a failed import of a package that tftool does not provide.
 
     Args:
         name: Name of the package, such as "cv_bridge".
+        use: Line of the user's code that imports the package.
     """
     packages = sorted(
         {one.partition(".")[0] for one in import_table.table()} | set(INTERFACES.packages())
     )
     near = near_names(name, packages, alike=0.8)
     hint = f"did you mean '{near[0]}'?" if near else ""
-    if name.endswith(("_msgs", "_srvs", "_interfaces", "_actions")):
+    is_imported = re.search(rf"\b{re.escape(name)}\.(msg|srv|action)\b", use) is not None
+    if is_imported or name.endswith(("_msgs", "_srvs", "_interfaces", "_actions")):
         # Another package of ROS 2, such as nav2_msgs, may have a similar name.
         return (
             f"{hint and f'{hint} If not, '}the definitions of {name} are not among tftool's: put "
@@ -138,11 +140,12 @@ def error_sentence(error: BaseException) -> str:
     if isinstance(error, InputError | UsageError | StuckError):
         return str(error)
     what = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+    place = user_line_of_error(error.__traceback__)
     if isinstance(error, ModuleNotFoundError) and error.name and str(error).endswith("'"):
         # The error text is Python's own, which ends with the quoted name.
-        what += f"; {missing_package(error.name.partition('.')[0])}"
+        line = place.text if place is not None else ""
+        what += f"; {missing_package(error.name.partition('.')[0], line)}"
     what += _near_name(error)
-    place = user_line_of_error(error.__traceback__)
     return what if place is None else f"{what}\n    {place}"
 
 
