@@ -135,7 +135,7 @@ NOTHING = 5e-7
 
 
 def static_lines(parent: str, child: str, pose: Transform) -> str:
-    """Return a pose as the lines that static_transform_publisher prints, and a sentence."""
+    """Return the pose of `child` in `parent` in static_transform_publisher's form and in words."""
     x, y, z = pose.translation
     qx, qy, qz, qw = pose.rotation
     return (

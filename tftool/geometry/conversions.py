@@ -36,8 +36,8 @@ def quaternion_from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
 def rpy_from_quaternion(quaternion: Iterable[float]) -> tuple[float, float, float]:
     """Return roll, pitch, yaw of a rotation in radians, pitch within a quarter turn.
 
-    At the poles (pitch of ±π/2) yaw is 0 and roll contains the whole turn, so that the angles
-    always mean the same rotation as the quaternion. All three angles of a zero quaternion are NaN.
+    At the poles (pitch of ±π/2) yaw is 0 and roll contains the whole turn. The angles then still
+    mean the same rotation as the quaternion. All three angles of a zero quaternion are NaN.
     """
     return quaternions.rpy(_quad(quaternion))
 

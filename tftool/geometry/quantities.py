@@ -32,14 +32,16 @@ def vector(a_from_b: Transform, xyz: Iterable[float]) -> Vector3:
 
 
 def pose(a_from_b: Transform, pose: Transform) -> Transform:
-    """Transform a pose; the resulting quaternion has w ≥ 0."""
+    """Transform a pose from frame b to frame a; the resulting quaternion has w ≥ 0."""
     moved = _usable(a_from_b) @ _usable(pose)
     x, y, z, w = moved.rotation
     return transform(moved.translation, (-x, -y, -z, -w)) if w < 0.0 else moved
 
 
 def covariance(a_from_b: Transform, covariance: Sequence[float]) -> Covariance:
-    """Rotate a 6×6 covariance: each of its 3×3 blocks B becomes R·B·Rᵀ for the rotation R.
+    """Rotate a 6×6 covariance from frame b to frame a.
+
+    Each of its 3×3 blocks B becomes R·B·Rᵀ for the rotation R of `a_from_b`.
 
     Raises:
         ValueError: If `covariance` does not have 36 numbers.

@@ -205,7 +205,10 @@ class Transform(_Parts):
         return apply(self, point)
 
     def rotate(self, vector: Iterable[float]) -> Vector3:
-        """Rotate a direction, a velocity or an axis, without adding the translation."""
+        """Rotate a direction, velocity or axis from the child frame b to the parent frame a.
+
+        The translation is not added.
+        """
         x, y, z = vector
         return Vector3(*quaternions.rotate(quaternions.unit(self.rotation), (x, y, z)))
 
@@ -275,7 +278,7 @@ def distance(pose: Transform) -> float:
 
 
 def transform_from_pose(x: float, y: float, heading: float) -> Transform:
-    """Return the transform of a pose in the plane; `heading` is in radians about z."""
+    """Return `parent_from_child` for a pose in the plane; `heading` is in radians about z."""
     half = 0.5 * heading
     return transform((float(x), float(y), 0.0), (0.0, 0.0, math.sin(half), math.cos(half)))
 

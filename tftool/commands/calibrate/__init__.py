@@ -12,12 +12,12 @@ MOUNT = "Mount"
 class CalibrateOptions(Command, shares=False, poses=True):
     """Find a sensor's mounting pose and clock offset from motion.
 
-    The input is two recorded motions of one rigid body, in separate frames and on separate clocks,
-    such as odometry and a camera's SLAM, or an arm and a tag on it. The result is the pose of one
-    moving frame in the other (the mount), the pose of one fixed frame in the other, and the clock
-    offset, each with a 95 % interval. If the motions do not determine the mount, a sentence says
-    which motion to record next. The exit status is 0 if the mount is solved completely or partly,
-    and 1 otherwise.
+    The input is two recorded motions of one rigid body, in separate frames and on separate clocks.
+    Examples are odometry and a camera's SLAM, or an arm and a tag on the arm. The result is the
+    pose of one moving frame in the other (the mount), the pose of one fixed frame in the other, and
+    the clock offset, each with a 95 % interval. If the motions do not determine the mount, a
+    sentence says which motion to record next. The exit status is 0 if the mount is solved
+    completely or partly, and 1 otherwise.
 
     tftool calibrate run.mcap --moving odom:base_link --moving world:camera
     tftool calibrate arm.bag --moving base:tool0 --moving camera:tag

@@ -25,11 +25,11 @@ class DiffOptions(Command, descriptions=True, urdf=True):
     """Say what differs between two sets of frames, link by link.
 
     A link is the transform from a frame to its parent. The report lists added and missing links,
-    frames with another parent, and links that are static only in A or only in B. The report gives
-    the differences of static links in millimetres and degrees, and the differences of moving links
-    at their common stamps: root mean square, maximum, and time of the maximum. The exit status is 1
-    if anything differs by more than 1 mm or 0.1°, or than --mm, --deg, --rate-percent, or if a
-    moving link could not be compared.
+    frames with another parent, and links that are static only in A or only in B. Differences are in
+    millimetres and degrees. Moving links are compared at their common stamps: root mean square,
+    maximum, and time of the maximum. The exit status is 1 if anything differs by more than the
+    tolerance (1 mm, 0.1°, or --mm, --deg, --rate-percent), or if a moving link could not be
+    compared.
 
     With --ape or --rpe, two trajectories are compared instead; A is the reference. A source with a
     single trajectory needs no option. Otherwise --pair TARGET:SOURCE names the frames; give --pair
