@@ -383,7 +383,8 @@ def test_the_distance_of_two_sources_of_odometry_is_no_way_that_is_cancelled():
 
 def test_a_kind_that_changes_once_is_a_warning_and_ros_1_keeps_the_first():
     for kind, begin, so in (
-        ("rosbag2", -1.0, "clears the history of laser"),
+        ("rosbag2", -1.0, "the change clears the history of laser: later lookups of the time"),
+        ("rosbag2", 9.0, "every lookup of laser gets the static pose, at any time"),
         ("ROS 1 bag", -1.0, "here the static one (at 0.00 s): every lookup of laser gets"),
         ("ROS 1 bag", 1.0, "here the moving one (at 0.00 s): the static pose of laser counts as"),
     ):

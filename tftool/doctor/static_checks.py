@@ -101,8 +101,9 @@ def _changes(model: Model, turns: int, history: int) -> str:
     """
     if is_ros1(model.evidence):
         return ""
-    changes = "once" if turns == 1 else f"{turns} times"
-    return f"; the kind changes {changes}, at most {span(history)} of history are kept"
+    if turns == 1:
+        return "; the kind changes once"
+    return f"; the kind changes {turns} times, at most {span(history)} of history are kept"
 
 
 def _mixed_kinds(model: Model, child: str, tracks: Sequence[Track], turns: int) -> str:
@@ -121,6 +122,10 @@ def _mixed_kinds(model: Model, child: str, tracks: Sequence[Track], turns: int) 
             return (
                 f"after the change {child} has only the parent {last.parent}: lookups through "
                 f"{several(lost)} fail"
+            )
+        if turns == 1:
+            return (
+                f"the change clears the history of {child}: later lookups of the time before fail"
             )
         return f"each change of kind clears the history of {child}: lookups in the past fail"
     first = model.first_of(child)
