@@ -1,7 +1,7 @@
 """Checks of the tree's shape: loops, several trees, wrong order of names."""
 
 from collections import defaultdict, deque
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -294,7 +294,7 @@ def empty_frame(model: Model, limits: Limits) -> Iterator[Hit]:
                 },
                 topics=track.topics,
                 severity=Severity.ERROR if is_tf else Severity.NOTE,
-                fixes=(_name_it(model, track.topics[0]),),
+                fixes=_name_them(model, [track.topics[0]]),
             )
     unnamed = [heard for heard in model.heard if not heard.frame and _needs_frame(heard)]
     placed = [heard for heard in unnamed if _is_placed(heard)]
@@ -308,7 +308,7 @@ def empty_frame(model: Model, limits: Limits) -> Iterator[Hit]:
             since=int(heard.logs[0]) if len(heard.logs) else None,
             count=len(heard.stamps),
             severity=Severity.WARNING if heard in placed else Severity.NOTE,
-            fixes=tuple(_name_it(model, other.topic) for other in alike[:_MOST_FIXES]),
+            fixes=_name_them(model, [other.topic for other in alike]),
             facts={
                 "what": heard.topic,
                 "named": f"{count(len(heard.stamps), 'message')} on {heard.topic}",
@@ -318,10 +318,6 @@ def empty_frame(model: Model, limits: Limits) -> Iterator[Hit]:
                 "so": "such a message cannot be placed",
             },
         )
-
-
-_MOST_FIXES = 3
-"""Maximum number of topics without a frame name for which a remedy is printed."""
 
 
 def _needs_frame(heard: Heard) -> bool:
@@ -342,12 +338,24 @@ def _is_measured(heard: Heard) -> bool:
     return heard.type.startswith("sensor_msgs/") or heard.type.endswith("WithCovarianceStamped")
 
 
-def _name_it(model: Model, topic: str) -> Fix:
-    """Return the next step for a topic whose messages have no frame name."""
-    nodes = sorted({one.node for one in model.evidence.publishers if one.topic == topic})
-    if all(nodes) and nodes:
-        return Fix(f"set header.frame_id in {several(nodes)}, which publishes {topic}")
-    return Fix(f"find its publisher, and set header.frame_id there: `{{publishers}} {topic}`")
+def _name_them(model: Model, topics: Sequence[str]) -> tuple[Fix, ...]:
+    """Return the next steps for topics whose messages have no frame name."""
+    fixes, unknown = [], []
+    for topic in topics:
+        nodes = sorted({one.node for one in model.evidence.publishers if one.topic == topic})
+        if all(nodes) and nodes:
+            fixes.append(Fix(f"set header.frame_id in {several(nodes)}, which publishes {topic}"))
+        else:
+            unknown.append(f"`{{publishers}} {topic}`")
+    if unknown:
+        whose = "its publisher" if len(unknown) == 1 else "the publisher of each topic"
+        text = f"find {whose}, and set header.frame_id there: {several(unknown, 3)}"
+        fixes.append(Fix(text))
+    return tuple(fixes[:_MOST_FIXES])
+
+
+_MOST_FIXES = 3
+"""Maximum number of remedies for topics without a frame name."""
 
 
 @check(
