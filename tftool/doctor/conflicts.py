@@ -73,8 +73,8 @@ def fed_twice(track: Track, hit: Hit, limits: Limits) -> Hit | None:
     if not is_revolute(track) and not any("state_publisher" in node for node in track.nodes):
         return replace(told, facts=facts)
     cure = (
-        "find who publishes joint states: `{publishers} /joint_states`; one of them always sends "
-        "one value"
+        "find who publishes joint states: `{publishers} /joint_states`; look who always sends one "
+        "value"
     )
     return replace(told, facts=facts, fixes=(Fix(cure),))
 
@@ -153,9 +153,9 @@ def with_doubled(model: Model, track: Track, hit: Hit) -> Hit:
     doubled = [other.name for other in others if _is_doubled(other)]
     if not doubled or hit.confidence is Confidence.CERTAIN:
         return hit
-    told = f"{hit.facts['told']}; {several(doubled, 3)}: sent twice, with equal values"
+    also = f"; {several(doubled, 3)}: sent twice, with equal values"
     fix = Fix("look whether the robot's software was started twice")
-    return replace(hit, facts={**hit.facts, "told": told}, fixes=(*hit.fixes, fix))
+    return replace(hit, facts={**hit.facts, "also": also}, fixes=(*hit.fixes, fix))
 
 
 def _is_doubled(track: Track) -> bool:
@@ -476,6 +476,7 @@ def _conflict(
             "seen": seen,
             "two": 1 if known else 0,
             "so": so,
+            "also": "",
         },
         fixes=(fix,),
         alone=True,

@@ -19,7 +19,7 @@ check = checks_of(Area.CLOCKS)
     "1 s",
     headline="time went back by {steps}, {count:times}{loop}",
     detail="at log time {moment:moment}: from {before:moment} to {after:moment}, {streams} "
-    "streams; all that follows is about what came before",
+    "streams; all other findings are about the data before it",
     consequence="{so}",
     causes=("play --loop", "a simulation was reset", "NTP set the clock back while running"),
     links=threads("ros2/geometry2#606", "ros/geometry2#43"),

@@ -108,7 +108,7 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
     "mount whose two values differ by less than {slight:g} m and {slight_degrees:g}°",
     headline="{named} {many:has|have} two {two:sources with |}different values{seen}",
     detail="{edge}: {first} and {second}, {told}, {apart:m} and {turned:deg} apart (median), "
-    "{worst:m} and {most_turned:deg} at most",
+    "{worst:m} and {most_turned:deg} at most{also}",
     consequence="{so}",
     causes=(
         "joint_state_publisher sends zeros beside the real source of joint states",
