@@ -1,7 +1,10 @@
+import re
+
 import pytest
 
 from tftool.base.errors import UsageError
 from tftool.messages.classes import INTERFACES
+from tftool.ros.host import executables
 from tftool.ros.host.workspace import Workspace
 from tftool.ros.testing import RosRuntime
 
@@ -36,6 +39,32 @@ node = "mod:main"
 [tool.x]
 node = "no"
 """
+
+
+CMAKE = """
+project(mixed)
+add_executable(counter src/counter.cpp)
+# add_executable(old src/old.cpp)
+foreach(target a b)
+  add_executable( ${target}_node src/${target}.cpp)
+endforeach()
+add_executable(${PROJECT_NAME}_main main.cpp)
+"""
+
+
+@pytest.mark.parametrize("name", ["counter", "a_node", "mixed_main", "old", "main"])
+def test_an_executable_in_cpp_is_named_as_such(tmp_path, name):
+    text = "<package><name>mixed</name></package>"
+    package(tmp_path / "src" / "mixed", package__xml=text, CMakeLists__txt=CMAKE)
+    told = (
+        f"package 'mixed' has no executable '{name}' (it has none)"
+        if name in ("old", "main")
+        else f"'mixed {name}' is compiled from C++, so tftool cannot run it: run it with ROS 2, "
+        "and connect to it by tftool's option --dds"
+    )
+
+    with pytest.raises(UsageError, match=f"^{re.escape(told)}$"):
+        executables.find(Workspace(tmp_path), "mixed", name)
 
 
 @pytest.mark.parametrize(

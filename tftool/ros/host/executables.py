@@ -355,6 +355,11 @@ def find(workspace: Workspace, package: str | None, executable: str) -> FoundExe
             f"'{package} {executable}' needs a terminal of its own: run '{elsewhere}' in another "
             "terminal."
         )
+    if found is not None and found.is_compiled(executable):
+        raise UsageError(
+            f"'{package} {executable}' is compiled from C++, so tftool cannot run it: run it with "
+            "ROS 2, and connect to it by tftool's option --dds"
+        )
     known = [name for one, name in _OURS if one == package]
     known += [*found.scripts, *found.programs] if found is not None else []
     if not known and found is None:

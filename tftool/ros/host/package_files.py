@@ -35,6 +35,8 @@ class Package:
         programs: Python files that CMakeLists.txt installs (`install(PROGRAMS …)`), by name.
         data_files: Files that setup.py installs; None if only running setup.py would give the
             list.
+        compiled: Names of the executables that CMakeLists.txt compiles, such as "talker" and
+            "${target}_node".
     """
 
     name: str
@@ -44,6 +46,7 @@ class Package:
     modules: Sequence[str] = ()
     programs: Mapping[str, Path] = field(default_factory=dict)
     data_files: frozenset[str] | None = None
+    compiled: frozenset[str] = frozenset()
 
     def script_file(self, name: str) -> Path | None:
         """Return the Python file of an executable in a package without setup.py.
@@ -62,6 +65,14 @@ class Package:
                 if path.is_file() and (path.suffix == ".py" or _is_python(path)):
                     return path
         return None
+
+    def is_compiled(self, name: str) -> bool:
+        """Return whether CMakeLists.txt compiles an executable of this name."""
+        # A variable, as in a loop over targets, stands for any text.
+        patterns = (re.split(r"\$\{\w+\}", one) for one in self.compiled)
+        return any(
+            re.fullmatch(".+".join(map(re.escape, parts)), name) for parts in patterns if any(parts)
+        )
 
     def path_of_script(self, name: str) -> Path:
         """Return the path that a console script would get if installed into the source folder."""
@@ -115,7 +126,12 @@ def read_package(folder: Path) -> Package | None:
             moved[str(place)] = source
         elif source.suffix == ".py" or _is_python(source):
             programs[place.name] = source
-    return Package(name, folder, scripts, moved, modules, programs, _listed_files(installed))
+    compiled = frozenset(_COMPILED.findall(re.sub(r"#.*", "", text)))
+    listed = _listed_files(installed)
+    return Package(name, folder, scripts, moved, modules, programs, listed, compiled)
+
+
+_COMPILED = re.compile(r"(?:add_executable\s*\(|\bEXECUTABLE\b)\s*\"?([\w.${}-]+)")
 
 
 def _listed_files(data_files: Any) -> frozenset[str] | None:
