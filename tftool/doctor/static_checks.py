@@ -123,6 +123,8 @@ def _mixed_kinds(model: Model, child: str, tracks: Sequence[Track], turns: int) 
                 f"after the change {child} has only the parent {last.parent}: lookups through "
                 f"{several(lost)} fail"
             )
+        if turns == 1 and last.static:
+            return f"after the change every lookup of {child} gets the static pose, at any time"
         if turns == 1:
             return (
                 f"the change clears the history of {child}: later lookups of the time before fail"
