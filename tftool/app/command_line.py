@@ -145,7 +145,7 @@ def _help_text(docstring: str) -> str:
 
 
 class LaidOutCommand(TyperCommand):
-    """Command whose help groups options by subject; --help-session adds options of sessions."""
+    """Command whose help groups options by subject; --help-session adds session options."""
 
     def __init__(self, name: str | None, **words: Any) -> None:
         super().__init__(name, **words)

@@ -311,7 +311,7 @@ class InvalidArgumentException(TransformException):
 
 
 class TimeoutException(TransformException):
-    """Error for a wait for a transform that exceeded its timeout.
+    """Error for a wait that exceeded its timeout before the transform was available.
 
     Attributes:
         refusal: The error of the last failed lookup; None if no lookup failed.

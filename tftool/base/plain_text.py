@@ -57,8 +57,8 @@ def visible(name: str) -> str:
 def visible_lines(text: str) -> str:
     """Escape a text so that every character is visible; line breaks are kept.
 
-    In a text of more than 400 lines, the number of omitted lines replaces the middle. tf2's error
-    text about a loop, for example, names every frame.
+    A text of more than 400 lines, such as tf2's error text about a loop of many frames, is
+    shortened. The number of omitted lines then replaces the middle.
     """
     lines = text.split("\n")
     if len(lines) > MOST_LINES:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Judgement:
-    """Statement about frames that a run has tested, with the result.
+    """Statement about the frames of a run, with the result of its test.
 
     Attributes:
         subject: The statement, for example "by 20 s: distance from a to b below 0.5 m".

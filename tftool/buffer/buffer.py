@@ -79,7 +79,7 @@ class Shortened(NamedTuple):
 
 
 def _most_per_frame(sizes: list[int], limit: int) -> int:
-    """Return the most samples per frame, at least 2, for at most `limit` samples in total."""
+    """Return how many samples each frame may keep, at least 2, for `limit` samples in total."""
     left = len(sizes)
     for size in sorted(sizes):
         if size * left > limit:
@@ -198,7 +198,7 @@ class Buffer(Door):
         return True
 
     def _tell_of(self, transform: TransformStamped, authority: str) -> None:
-        """Call the listeners with a sample, after its quaternion got unit length and tf2's sign."""
+        """Call the listeners with a sample as stored: a unit quaternion with the sign as in tf2."""
         stamp, parent, child, pose = transform
         kept: tuple[TransformStamped, ...] = ()
         if self._listening:
@@ -574,7 +574,7 @@ class Buffer(Door):
         )
 
     def newest_common(self, target_frame: str, source_frame: str) -> Stamp:
-        """Return the result of `get_latest_common_time`, or 0 where that method raises an error."""
+        """Return the result of `get_latest_common_time`; 0 if that method raises an error."""
         try:
             return self.get_latest_common_time(target_frame, source_frame)
         except TransformException:

@@ -202,7 +202,7 @@ def twist(
 
 
 def _difference(first: Transform, last: Transform, duration: float) -> tuple[Vector3, Vector3]:
-    """Return mean linear and angular velocity between two poses, in the poses' parent frame."""
+    """Return the mean velocities between two poses in one parent, `duration` seconds apart."""
     if duration == 0.0:
         unknown = Vector3(math.nan, math.nan, math.nan)
         return unknown, unknown

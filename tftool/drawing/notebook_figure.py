@@ -1,4 +1,4 @@
-"""Figure that a notebook shows once, even if a cell draws the figure and also has it as its value.
+"""Figure that a notebook shows once, even if a cell draws the figure and also returns it.
 
 This module needs matplotlib (the extra `plot`), and is imported only when a figure is drawn.
 """

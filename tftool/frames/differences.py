@@ -154,7 +154,7 @@ class LinkDifference:
 
     @property
     def is_same(self) -> bool:
-        """Whether no difference of the frame exceeds the tolerance."""
+        """Whether all differences of the frame are within the tolerance."""
         return self.changes == (Change.same,)
 
     @property

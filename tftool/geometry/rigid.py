@@ -242,7 +242,7 @@ IDENTITY = Transform()
 
 
 def compose(first: Transform, second: Transform) -> Transform:
-    """Return `a_from_c` for `a_from_b` and `b_from_c`; the quaternion's sign is not changed."""
+    """Return `a_from_c` for `a_from_b` and `b_from_c`; use `canonical` to get tf2's sign."""
     turn = quaternions.unit(first.rotation)
     x, y, z = quaternions.rotate(turn, second.translation)
     tx, ty, tz = first.translation

@@ -1,8 +1,8 @@
 """Byte layouts of messages: ROS 2's plain CDR, and ROS 1's serialisation.
 
 CDR has a header of four bytes with the byte order. After the header, every number is aligned to its
-size, and a string ends with a zero byte, which its length includes. tftool writes little endian and
-reads both byte orders. ROS 1 has no header, no alignment and no zero byte after strings.
+size. A string ends with a zero byte, and the string's length counts this byte. tftool writes little
+endian and reads both byte orders. ROS 1 has no header, no alignment and no zero byte after strings.
 
 Bytes are untrusted: a length is compared with the available bytes before memory is allocated, and
 bytes that do not fit raise an error.
@@ -49,7 +49,7 @@ class Layout:
         headers: Byte order for each header that can be read; empty for a layout without header.
         alignment: Largest alignment of a number, bytes; 1 for no alignment.
         word: Alignment of a length, bytes.
-        texts_end_with_zero: Whether a string ends with a zero byte, which its length includes.
+        texts_end_with_zero: Whether a string ends with a zero byte, which the length counts too.
         empty_size: Number of bytes of a structure without fields.
         letters: `struct` letters of the fields whose type in this layout differs from their ROS 2
             definition, by (structure, field).

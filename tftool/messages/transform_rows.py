@@ -205,7 +205,7 @@ class Template:
     __slots__ = ("_begin", "_masks", "_values", "_words", "places")
 
     def __init__(self, layout: Layout, payload: bytes, walked: Walked) -> None:
-        """Create the template from one little-endian message, whose offsets `walk` found."""
+        """Create the template from a little-endian message and its offsets, found by `walk`."""
         self.places = walked.places
         begin, width = row_span(layout, len(payload))
         self._begin = begin

@@ -197,7 +197,7 @@ class ChunkedReader(File):
     # Damage
 
     def note(self, damage: str) -> None:
-        """Append a sentence about damage of the file to `self.damage`; ignore a known sentence."""
+        """Append a sentence about damage of the file to `self.damage`; ignore a repetition."""
         if damage not in self.damage and len(self.damage) < _MOST_NOTED:
             self.damage.append(damage)
 

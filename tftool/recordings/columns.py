@@ -65,7 +65,7 @@ class Batch:
 
 
 def in_order(batches: Sequence[Batch]) -> Batch:
-    """Merge batches of messages in the same bytes into one batch, in the order of the bytes."""
+    """Merge batches that share one buffer; sort the messages by their offset in the buffer."""
     if len(batches) == 1:
         return batches[0]
     starts, lengths, log_times, senders = (
@@ -272,7 +272,10 @@ class Table:
         return min(messages / self._expected, 1.0) if self._expected else 1.0
 
     def edge(self, parent: str, child: str, static: bool, count: int) -> "Growing | None":
-        """Return the columns of an edge that gets `count` transforms; None above `MOST_EDGES`."""
+        """Return the columns of an edge; None for a new edge if there are `MOST_EDGES` edges.
+
+        The next `count` transforms of the edge will be appended, or are counted as left out.
+        """
         plain = parent.removeprefix("/"), child.removeprefix("/")
         key = (*plain, static)
         edge = self._edges.get(key)

@@ -186,12 +186,12 @@ class Coming:
         self._undone.release()
 
     def drop(self) -> bool:
-        """Prevent decompression that has not begun; return whether no thread uses the memory."""
+        """Cancel the decompression if it has not begun; return whether the memory is unused."""
         return self._begun.acquire(blocking=False) or self.is_done
 
     @property
     def is_done(self) -> bool:
-        """Whether the result is there."""
+        """Whether the decompressed bytes are ready."""
         return not self._undone.locked()
 
     def result(self) -> "bytes | memoryview":
@@ -410,7 +410,7 @@ def lz4_frame() -> Any:
 def keep_freed_memory() -> None:
     """Make malloc reuse freed memory of up to `_LARGEST_KEPT` bytes, instead of returning it.
 
-    Clearing the new pages for the bytes of every chunk takes a tenth of the time of reading.
+    Otherwise the system clears new pages for every chunk, a tenth of the time of reading.
     """
     import numpy as np
 

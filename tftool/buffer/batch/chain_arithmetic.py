@@ -119,7 +119,7 @@ class Intervals:
     def fetch(
         self, table: npt.NDArray[T], index: npt.NDArray[np.intp], out: npt.NDArray[T]
     ) -> None:
-        """Write the row of `table` for the interval of each time into `out`.
+        """Copy, for each time, the row of `table` for the time's interval into `out`.
 
         Args:
             table: Array with one row per interval, shape (k,) or (k, 4).

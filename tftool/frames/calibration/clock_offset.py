@@ -133,7 +133,7 @@ def offset_of(a: BodyMotion, b: BodyMotion) -> ClockOffset:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Correlation:
-    """Correlation of two curves, sampled with one step, at all time shifts (lags).
+    """Correlation of two curves with the same time step, at all time shifts (lags).
 
     Attributes:
         lags: Time shifts in steps, shape (n,).

@@ -18,7 +18,7 @@ DECIMALS: Final = 9
 
 @dataclass(frozen=True, slots=True)
 class Style:
-    """Options of an export; each format uses those that apply to it.
+    """Options of an export; options that do not apply to a format are ignored.
 
     Attributes:
         decimals: Number of decimals in text files; 17 for the shortest exact text.

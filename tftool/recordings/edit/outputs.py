@@ -192,7 +192,7 @@ class EditedFile:
         return found and self._chunks is not None
 
     def _agrees(self, reader: ContainerReader) -> bool:
-        """Whether this file has the same channel or none under each channel number of an input."""
+        """Whether an input's channel numbers are free in this file, or mean the same channels."""
         if self._chunks is None or self._extra or not isinstance(reader, ChunkedReader):
             return False
         channels = reader.channels.items()
