@@ -285,6 +285,7 @@ def test_an_endless_loop_is_named_by_node_and_line(tmp_path, capsys, monkeypatch
     assert "'mine' has been busy for 1.5 s and simulated time waits for it" in said
     assert "endless.py:5, in tick: while True:" in said or "endless.py:6, in tick: pass" in said
     assert "'endless' has computed for 3 s without waiting" in said
+    assert "run it without --simulated" in said
 
 
 @pytest.mark.parametrize("swallows", [False, True])

@@ -138,8 +138,8 @@ def test_what_goes_wrong_later_is_told_with_the_line_that_says_it(tmp_path, endi
         launch(file, seconds=1)
 
     assert str(refused.value.__cause__) == (
-        f"{file}:6: launch configuration 'gone' does not exist: declare it with "
-        "DeclareLaunchArgument, or pass gone:=…"
+        f"{file}:6: launch configuration 'gone' does not exist here: declare it with "
+        "DeclareLaunchArgument before its first use, or pass gone:=…"
     )
 
 

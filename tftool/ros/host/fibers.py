@@ -357,7 +357,8 @@ class Fiber:
         self.ended = True
         raise StuckError(
             f"'{self.name}' has computed for {self._give_up:g} s without waiting, so simulated "
-            "time could not advance: let the code wait with a timer or time.sleep. "
+            "time could not advance: let the code wait with a timer or time.sleep, or, if it waits "
+            "for a file, a socket or a process, run it without --simulated. "
             + (f"The code was at: {place}" if place else "None of your lines was running.")
         )
 

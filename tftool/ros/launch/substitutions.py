@@ -120,8 +120,8 @@ class LaunchConfiguration(Substitution):
             return perform(context, self.default)
         hint = did_you_mean(name, context.launch_configurations)
         raise SubstitutionFailure(
-            f"launch configuration '{name}' does not exist: declare it with "
-            f"DeclareLaunchArgument, or pass {name}:=…{hint}"
+            f"launch configuration '{name}' does not exist here: declare it with "
+            f"DeclareLaunchArgument before its first use, or pass {name}:=…{hint}"
         )
 
     def describe(self) -> str:
