@@ -185,16 +185,8 @@ launch.substitutions: launch.logic: EqualsSubstitution<$equals> NotEqualsSubstit
     IfElseSubstitution<$if>
 launch.substitutions launch.substitutions.boolean_substitution: launch.logic: AndSubstitution<$and>
     OrSubstitution<$or> NotSubstitution<$not> AnySubstitution<$any> AllSubstitution<$all>
-launch.utilities launch.utilities.perform_substitutions_impl: launch.utilities:
-    perform_substitutions
-launch.utilities launch.utilities.normalize_to_list_of_substitutions_impl: launch.utilities:
-    normalize_to_list_of_substitutions
-launch.utilities launch.utilities.normalize_to_list_of_entities_impl: launch.utilities:
-    normalize_to_list_of_entities
+launch.utilities: launch.substitutions: normalize_to_list_of_substitutions perform_substitutions
 launch launch.some_entities_type: launch.description: SomeEntitiesType
-launch.utilities launch.utilities.ensure_argument_type_impl: launch.utilities: ensure_argument_type
-launch.utilities launch.utilities.class_tools_impl: launch.utilities: is_a is_a_subclass
-    isclassinstance
 launch_xml.launch_description_sources: launch.description: XMLLaunchDescriptionSource
 launch_yaml.launch_description_sources: launch.description: YAMLLaunchDescriptionSource
 launch_ros.actions: launch.nodes: Node<node>
@@ -229,7 +221,7 @@ launch_ros.utilities launch_ros.utilities.track_node_names: launch.scope: add_no
 launch_ros.utilities launch_ros.utilities.normalize_parameters: launch.parameters:
     normalize_parameters normalize_parameter_dict
 launch_ros.utilities launch_ros.utilities.evaluate_parameters: launch.parameters:
-    evaluate_parameters evaluate_parameter_dict
+    evaluate_parameter_dict
 launch_testing: launch_testing.description: parametrize ready_to_test_action_timeout
 launch_testing launch_testing.decorator: launch_testing.description: post_shutdown_test
 launch_testing launch_testing.ready_aggregator: launch_testing.description: ReadyAggregator
