@@ -172,7 +172,7 @@ launch.events.process: launch.events: ProcessExited ProcessStarted ProcessIO Shu
     SignalProcess RunningProcessEvent
 launch.frontend launch.frontend.parser: launch.frontend: Parser
 launch.frontend launch.frontend.expose: launch.parsing: expose_substitution
-launch.frontend.parse_substitution: launch.parsing: parse_substitution parse_if_substitutions
+launch.frontend.parse_substitution: launch.parsing: parse_substitution
 launch.launch_description_sources: launch.description: PythonLaunchDescriptionSource
     AnyLaunchDescriptionSource FrontendLaunchDescriptionSource
 launch.substitutions: launch.substitutions: TextSubstitution LaunchConfiguration<$var>
