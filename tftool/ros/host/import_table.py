@@ -224,14 +224,13 @@ launch_ros.utilities launch_ros.utilities.evaluate_parameters: launch.parameters
     evaluate_parameter_dict
 launch_testing: launch_testing.description: parametrize ready_to_test_action_timeout
 launch_testing launch_testing.decorator: launch_testing.description: post_shutdown_test
-launch_testing launch_testing.ready_aggregator: launch_testing.description: ReadyAggregator
 launch_testing launch_testing.io_handler: launch_testing.records: ActiveIoHandler IoHandler
 launch_testing launch_testing.proc_info_handler: launch_testing.records: ActiveProcInfoHandler
     ProcInfoHandler
 launch_testing.actions launch_pytest.actions: launch_testing.description: ReadyToTest
 launch_testing.actions: launch_testing.description: Test GTest PyTest
 launch_testing.asserts: launch_testing.records: assertExitCodes assertInStream assertInStdout
-    assertInStderr assertDefaultStream assertSequentialStdout SequentialTextChecker EXIT_OK
+    assertInStderr assertSequentialStdout SequentialTextChecker EXIT_OK
     EXIT_SIGINT EXIT_SIGQUIT EXIT_SIGKILL EXIT_SIGSEGV
 launch_testing.asserts launch_testing.util: launch_testing.records: NO_CMD_ARGS
 launch_testing.event_handlers: launch_testing.description: StdoutReadyListener
@@ -243,18 +242,12 @@ launch_testing.test_runner launch_testing_ros launch_testing_ros.test_runner: la
     LaunchTestRunner
 launch_testing.tools launch_testing.tools.process: launch_testing.records: ProcessProxy
     launch_process
-launch_testing.tools launch_testing.tools.output launch_testing_ros.tools
-    launch_testing_ros.tools.output: launch_testing.text: basic_output_filter
 launch_testing.tools launch_testing.tools.output: launch_testing.text: expect_output
-    expected_output_from_file
-launch_testing.tools.output: launch_testing.text: get_default_filtered_prefixes
-    get_default_filtered_patterns
 launch_testing.tools.text: launch_testing.text: build_line_match build_text_match
 launch_testing.util: launch_testing.description: KeepAliveProc
 launch_testing.util: launch_testing.records: resolveProcesses NoMatchingProcessException
 launch_testing_ros launch_testing_ros.wait_for_topics: launch_testing.topics: WaitForTopics
 launch_testing_ros launch_testing_ros.message_pump: launch_testing.topics: MessagePump
-launch_testing_ros launch_testing_ros.data_republisher: launch_testing.topics: DataRepublisher
 launch_pytest: launch_testing.fixtures: fixture
 launch_pytest.tools launch_pytest.tools.process: launch_testing.processes: *
 rosidl_runtime_py rosidl_runtime_py.convert: host.rosidl_runtime: message_to_csv
