@@ -46,7 +46,7 @@ from tftool.ros.host.importing import ros_free
         ("launch_ros.utilities.normalize_parameters", "normalize_parameters"),
         ("launch_yaml.launch_description_sources.yaml_launch_description_source", ""),
         ("rclpy", "Future List Optional"),
-        ("rclpy.impl.rcutils_logger", "RcutilsLogger SkipFirst"),
+        ("rclpy.impl.rcutils_logger", "RcutilsLogger"),
         ("tf2_ros.transform_listener", "DEFAULT_TF_TOPIC DEFAULT_STATIC_TF_TOPIC"),
         ("ament_index_python.resources", "get_resource get_resources has_resource"),
         ("rosidl_runtime_py.convert", "message_to_ordereddict message_to_yaml"),

@@ -59,7 +59,6 @@ rclpy.time_source: rclpy.time_source: TimeSource CLOCK_TOPIC USE_SIM_TIME_NAME
 rclpy.type_support: rclpy.node: check_for_type_support check_is_valid_msg_type
     check_is_valid_srv_type
 rclpy.type_description_service: rclpy.services: START_TYPE_DESCRIPTION_SERVICE_PARAM
-rclpy.type_hash: rclpy.node_graph: TypeHash
 rclpy.topic_endpoint_info: rclpy.node_graph: TopicEndpointInfo TopicEndpointTypeEnum
 rclpy.wait_for_message: rclpy.executors: wait_for_message
 rclpy.client: rclpy.services: Client
@@ -74,7 +73,7 @@ rclpy.callback_groups: rclpy.entities: CallbackGroup MutuallyExclusiveCallbackGr
 rclpy.logging: rclpy.logging: get_logger set_logger_level initialize shutdown clear_config
     get_logging_directory _root_logger get_logger_effective_level get_logging_severity_from_string
 rclpy.logging rclpy.impl.logging_severity: rclpy.logging: LoggingSeverity
-rclpy.impl.rcutils_logger: rclpy.logging: RcutilsLogger SkipFirst
+rclpy.impl.rcutils_logger: rclpy.logging: RcutilsLogger
 rclpy.parameter: rclpy.parameter: parameter_value_to_python get_parameter_value
     parameter_dict_from_yaml_file PARAMETER_SEPARATOR_STRING
 rclpy.parameter_client: rclpy.parameter_client: AsyncParameterClient
@@ -103,8 +102,7 @@ rclpy.lifecycle rclpy.lifecycle.managed_entity: rclpy.lifecycle: ManagedEntity S
 rclpy.lifecycle: rclpy.lifecycle: Node=LifecycleNode State=LifecycleState
     Publisher=LifecyclePublisher NodeMixin=LifecycleNodeMixin
 rclpy.serialization: rclpy.topics: serialize_message deserialize_message
-rclpy.signals: rclpy.context: get_current_signal_handlers_options
-rclpy.utilities: rclpy.context: remove_ros_args timeout_sec_to_nsec
+rclpy.utilities: rclpy.context: remove_ros_args
 rclpy.expand_topic_name: rclpy.validation: expand_topic_name
 rclpy.topic_or_service_is_hidden: rclpy.validation: topic_or_service_is_hidden HIDDEN_TOPIC_PREFIX
 rclpy.validate_full_topic_name: rclpy.validation: validate_full_topic_name
