@@ -86,7 +86,7 @@ def test_a_scenario_in_a_file_called_by_a_number_is_a_file(tftool, tmp_path, mon
         (
             ["turtles", "--at", "1004"],
             2,
-            "is after its end. Only numbers from 1e8 are stamps: for this stamp, write 4.",
+            "is after its end. Numbers below 1e8 count from the start: for this stamp, write 4.",
         ),
         (["turtles", "--at", "0.5"], 4, "extrapolation into the past"),
     ],

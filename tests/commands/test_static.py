@@ -40,7 +40,7 @@ FRAMES = ["--frame-id", "a", "--child-frame-id", "b"]
         (
             words("1 2 3 4 5 A B"),
             "Extra unparsed arguments on command-line",
-            "here are 7",
+            "not 7",
         ),
         (["--x=1", *FRAMES], "Extra unparsed arguments on command-line", "Write --x 1"),
         (["--frame_id", "a"], "Extra unparsed arguments", "Did you mean --frame-id?"),

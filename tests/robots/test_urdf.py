@@ -99,7 +99,7 @@ def test_what_a_link_looks_like_is_read():
         ('<axis xyz="0 0 2"/>', '<axis xyz="0 0 0.0"/>', 'xyz="0 0 0.0"', "must not be zero"),
         ('type="revolute"', 'type="revolut"', 'type="revolut"', "did you mean 'revolute'?"),
         ('xyz="0 0 1"', 'xyz="0 0 1e999"', 'xyz="0 0 1e999"', "'1e999' is not a finite number"),
-        ('xyz="0 0 1"', 'xyz="0 1"', 'xyz="0 1"', "xyz is 3 numbers, not 2"),
+        ('xyz="0 0 1"', 'xyz="0 1"', 'xyz="0 1"', "xyz must be 3 numbers, not 2"),
         ('effort="10" ', "", "<limit", "<limit> has no effort"),
         ('name="tool"', "name='base'", "name='base'", "a link named 'base' already"),
         ('<parent link="upper"/>', '<parent link="tool"/>', None, "tool → tool"),
@@ -139,7 +139,7 @@ def test_every_mistake_is_reported_at_once_in_the_order_of_the_file():
         ('ixy="0" ', "", "8:7", "<inertia> has no ixy"),
         ('<box size="1 2 3"/>', "<cone/>", "16:16", "not <cone>"),
         ('radius="0.1"', 'radius="thin"', "12:27", "'thin' is not a finite number"),
-        ('xyz="0 0 0.5"', 'xyz="0 0"', "11:15", "xyz is 3 numbers, not 2"),
+        ('xyz="0 0 0.5"', 'xyz="0 0"', "11:15", "xyz must be 3 numbers, not 2"),
         ('rgba="0.5 0.5 0.5 1"', 'rgba="grey"', "3:33", "'grey' is not a finite number"),
     ],
 )

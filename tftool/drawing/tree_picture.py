@@ -213,7 +213,7 @@ def _letters_note(missing: str) -> str:
     more = f" and {len(missing) - _LETTERS_NAMED} more" if len(missing) > _LETTERS_NAMED else ""
     return (
         f"the PDF's font has no letter for {named}{more}: each is written as its number, "
-        f"<U+{ord(missing[0]):04X}>; svg and html show them"
+        f"<U+{ord(missing[0]):04X}>; svg and html show these letters"
     )
 
 

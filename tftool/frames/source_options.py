@@ -29,7 +29,7 @@ class At:
         if self.is_stamp or not epoch <= self.nanoseconds <= end:
             return ""
         since = At(self.nanoseconds - epoch)
-        return f" Only numbers from 1e8 are stamps: for this stamp, write {str(since)[:-2]}."
+        return f" Numbers below 1e8 count from the start: for this stamp, write {str(since)[:-2]}."
 
     def __str__(self) -> str:
         whole, rest = divmod(self.nanoseconds, NANOSECONDS)

@@ -344,7 +344,7 @@ class _Reader:
             numbers.append(float(word))
         if len(numbers) != count:
             wanted = "one number" if count == 1 else f"{count} numbers"
-            self._note(element, f"{attribute} is {wanted}, not {len(numbers)}", attribute)
+            self._note(element, f"{attribute} must be {wanted}, not {len(numbers)}", attribute)
             raise _Unreadable
         return tuple(numbers)
 

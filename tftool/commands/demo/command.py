@@ -135,8 +135,8 @@ def _show_recording(connection: Connection, options: DemoOptions, recording: str
     if lacking := screen_lacks():
         raise UsageError(
             f"The demo's screen needs a terminal, and {lacking}: "
-            f"'tftool tree {visible(recording)}' prints its frames, "
-            f"'tftool view {visible(recording)}' shows them in a browser."
+            f"'tftool tree {visible(recording)}' prints the frames of the recording, "
+            f"'tftool view {visible(recording)}' shows the frames in a browser."
         )
     frames = open_from(connection, recording)
     shown = at_rest(connection, frames)

@@ -104,8 +104,8 @@ def run(connection: Connection, options: PlotOptions) -> ExitStatus:
         ),
         (
             options.window is not None and not is_live,
-            "--window is only allowed for a live plot on a terminal: leave it out, or use --from "
-            "and --to.",
+            "--window is only allowed for a live plot on a terminal: leave out --window, or use "
+            "--from and --to.",
         ),
         (
             is_live and (is_chosen(options) or options.first or options.last),

@@ -230,8 +230,8 @@ def _about_extra(words: list[str]) -> str:
             near = near_names(option, OPTIONS)
             return f"There is no {option}." + (f" Did you mean {near[0]}?" if near else "")
     return (
-        f"Without options it needs 8 words, x y z yaw pitch roll PARENT CHILD, or 9, "
-        f"x y z qx qy qz qw PARENT CHILD; here are {len(words)}."
+        f"Without options, 8 words are needed (x y z yaw pitch roll PARENT CHILD) or 9 words "
+        f"(x y z qx qy qz qw PARENT CHILD), not {len(words)}."
     )
 
 
