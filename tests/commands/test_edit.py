@@ -131,7 +131,7 @@ def test_a_dry_run_writes_nothing(run, capsys):
         (
             ["-o", "b.mcap", "--to", "100000000"],
             2,
-            "Nothing was recorded before --to: the first time is ",
+            "Nothing was recorded before --to: the recording begins at ",
         ),
         (["./a.mcap", "-o", "b.mcap"], 2, "'./a.mcap' is already an input, as 'a.mcap'"),
         (["a.mcap", "-o", "b.mcap", "--force"], 2, "'a.mcap' is already an input, as 'a.mcap'"),
@@ -200,7 +200,7 @@ def test_options_that_do_not_contradict_each_other_are_accepted(run, capsys):
         ),
         (
             ["--to", "1600000000"],
-            "Nothing was recorded before --to: the first time is 1700000000.000000.",
+            "Nothing was recorded before --to: the recording begins at 1700000000.000000.",
         ),
     ],
 )

@@ -112,7 +112,7 @@ ONE = encode_transforms(transforms(random.Random(1), 1))
         (b"\x00\x07\x00\x00" + ONE[4:], "header 0007 is not a header of plain CDR"),
         (ONE[:4] + b"\xff\xff\xff\xff" + ONE[8:], "announces 4294967295 transforms, but has bytes"),
         (ONE[:16] + b"\xff\xff\xff\xff" + ONE[20:], "a string has 4294967295 bytes"),
-        (ONE[:-9], "ends within transform 1|has bytes for 0"),
+        (ONE[:-9], "ends within transform 1|has bytes for only 0"),
         (ONE + bytes(8), "8 bytes follow after the message"),
     ],
 )

@@ -265,7 +265,7 @@ class Questions:
         if not self._stays_inside(path):
             raise InputError(
                 f"'{source}' is outside of the folder, or a symbolic link that leads out of the "
-                "folder: only files in the folder that the server was started with are read."
+                "folder: the server reads only files in the folder that it was started with."
             )
         word = f"./{path.relative_to(self._root)}"
         if path.suffix == ".xacro" or source.endswith(".xacro"):

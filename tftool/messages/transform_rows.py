@@ -98,7 +98,7 @@ def walk(layout: Layout, payload: bytes) -> Walked:
         if count * SMALLEST > size - position:
             room = (size - position) // SMALLEST
             raise MalformedMessage(
-                KIND, f"the message announces {count} transforms, but has bytes for {room}"
+                KIND, f"the message announces {count} transforms, but has bytes for only {room}"
             )
         for _ in range(count):
             stamp = position if is_cdr else position + 4  # after the sequence number

@@ -239,7 +239,7 @@ def _count_of_transforms(payload: bytes) -> int:
     room = (len(payload) - 8) // _SMALLEST_TRANSFORM
     if count > room:
         raise MalformedMessage(
-            KIND, f"the message announces {count} transforms, but has bytes for {room}"
+            KIND, f"the message announces {count} transforms, but has bytes for only {room}"
         )
     return int(count)
 

@@ -136,7 +136,7 @@ def _examination(connection: Connection, options: DoctorOptions) -> Examination:
             number = -1.0
         if not limit or not 0.0 <= number < float("inf"):
             raise UsageError(
-                "--limit takes ID.NAME=VALUE, such as gap.seconds=2, with 0 or more as VALUE, not "
+                "--limit takes ID.NAME=VALUE, such as gap.seconds=2, and VALUE is 0 or more, not "
                 f"'{text}'"
             )
         limits.setdefault(check, {})[limit] = number

@@ -133,5 +133,5 @@ def _tell(exported: Exported) -> None:
     notice(visible(f"Wrote {count(exported.count, what)} to {names}{when}."))
     if exported.format is Format.kitti:
         notice(
-            "In KITTI's frames, z points forward: the poses are written without turning their axes."
+            "KITTI's camera frames have z forward; the poses are written unchanged, in ROS's axes."
         )

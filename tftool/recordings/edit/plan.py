@@ -301,7 +301,9 @@ def _refuse_outside(
             f" s after its start, at {display(last)}."
         )
     if edits.end is not None and edits.end < first:
-        raise UsageError(f"Nothing was recorded before --to: the first time is {display(first)}.")
+        raise UsageError(
+            f"Nothing was recorded before --to: the recording begins at {display(first)}."
+        )
 
 
 def _reparenting(edits: Edits, recordings: Sequence[Recording]) -> Reparenting | None:

@@ -127,8 +127,8 @@ def _refuse_the_input(inputs: Sequence[EditedInput], output: Path) -> None:
             part = part_of(output)
             if part.exists() and path.exists() and part.samefile(path):
                 raise UsageError(
-                    f"'{path}' is an input, but '{output}' would be written there: choose another "
-                    "output."
+                    f"'{path}' is an input, but has the temporary name of '{output}': choose "
+                    "another output."
                 )
             if path.parent.resolve() == output.resolve() and output.exists():
                 raise UsageError(f"'{output}' contains the input: name another output.")
