@@ -42,10 +42,10 @@ PLAINLY = (
     (r"is not in the range x>=(\S+?)\.?$", r"is less than \1."),
     (r"(?<![.?])$", "."),
 )
-"""Patterns of click's technical error texts, each with a plain text in place of it."""
+"""Patterns of click's technical error texts, each with a replacement in plain words."""
 
 UNLIKE = 0.5
-"""Least similarity, from 0 to 1, of a word that is suggested for a mistyped one."""
+"""Least similarity, from 0 to 1, of a word that is suggested for a mistyped word."""
 
 
 def run_command(words: Sequence[str], providers: "Providers | None" = None) -> int:

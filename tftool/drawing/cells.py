@@ -24,7 +24,7 @@ Mask: TypeAlias = npt.NDArray[np.bool_]
 NONE: Final = -1
 
 DASH: Final = 3
-"""Cells that each of several curves with equal dots takes in turn."""
+"""Length in cells of a dash, where several curves coincide and alternate."""
 
 Stroke: TypeAlias = tuple[float, float, float, float, Color, int]
 """Straight piece of a trail: x and y of both ends in metres, colour, width in pixels."""

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 FORMATS: Final = ("svg", "pdf", "png")
 
 MOST_POINTS: Final = 20_000
-"""Most points drawn of one curve; a printed page shows fewer."""
+"""Most points drawn of one curve: more than a printed page can show."""
 
 _CHARACTERS: Final = 125
 """Longest line of text below a figure, in characters."""

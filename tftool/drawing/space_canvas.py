@@ -50,7 +50,7 @@ CELLS_PER_NAME: Final = 150
 """Cells of a picture for each name; in a small picture, more names would hide the robot."""
 
 ASIDES: Final = (0, 2, 4, 7, 10, 14, 18)
-"""Distances in columns between a name and its frame; names keep off the robot."""
+"""Distances in columns between a name and its frame, so that names do not cover the robot."""
 
 MOST_POINTS: Final = 1_000_000
 """Points of triangles that are processed at once, to limit memory."""

@@ -32,7 +32,7 @@ from tftool.geometry.rigid_arrays import Floats
 
 LONGEST: Final = seconds(60)
 SHORTEST: Final = seconds(1)
-"""Shortest time in nanoseconds that the curves show; it grows to a minute."""
+"""Shortest time in nanoseconds that the curves show; the time grows to a minute."""
 
 NUMBER: Final = 10
 """Width in cells of a number with its unit."""

@@ -161,7 +161,7 @@ def _mermaid_text(text: str) -> str:
 
 
 _ACTIVE = re.compile(r"[^\w\s,:/.\-\u0080-\U0010ffff]|(?<![^\W_])[_.-]|[_.-](?![^\W_])")
-"""Characters to escape; common ones in names and numbers only where they could have a meaning."""
+"""Characters to escape; common characters of names only where they could have a meaning."""
 
 
 def svg(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:

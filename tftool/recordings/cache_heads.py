@@ -16,7 +16,7 @@ from tftool.base.named_files import open_regular
 from tftool.recordings.find import METADATA, Found
 
 FORMAT: Final = 3
-"""Version of the cache; raised when columns of the same recording would change, or their layout."""
+"""Version of the cache; raised if a release computes other columns, or stores them otherwise."""
 
 WORTHWHILE: Final = 4 << 20
 """Size of a recording, bytes, from which its columns are cached; small ones are read quickly."""

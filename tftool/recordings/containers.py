@@ -175,7 +175,7 @@ def container_stored(storage: str) -> ContainerFormat:
 
 
 RECORDED: Final = container_named("mcap")
-"""The container that `record` writes: what it holds so far can be read at any time."""
+"""The container that `record` writes; an incomplete file of this format can be read."""
 
 
 def library_name() -> str:

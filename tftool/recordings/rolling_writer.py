@@ -27,7 +27,7 @@ CHUNK_TIME: Final = seconds(1)
 """Maximum time that messages wait in a chunk before it is written."""
 
 MOST_HELD: Final = 1 << 30
-"""Maximum size of messages in the ring buffer, bytes; to keep it, the oldest are dropped."""
+"""Maximum size of messages in the ring buffer, bytes; beyond it, the oldest are dropped."""
 
 
 class Kept(NamedTuple):

@@ -41,7 +41,7 @@ MOST_JUDGED = 1_000_000
 """Most transforms of a recording that the doctor examines before playback, for about a second."""
 
 MOST_MARKS = 200
-"""Most findings marked on the line, the worst ones."""
+"""Most findings marked on the line; the worst findings are chosen."""
 
 
 def _refuse_to_mix(link: Link) -> None:

@@ -174,7 +174,7 @@ def wants_color(environment: Mapping[str, str], *, is_terminal: bool) -> bool:
 
 
 MOST_TOLD = 3
-"""Most frames that get a sentence; further ones are counted."""
+"""Most frames that get a sentence; further frames are counted."""
 
 
 def rivalries(buffer: "Buffer", frames: Iterable[str]) -> list[str]:

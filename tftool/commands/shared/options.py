@@ -26,7 +26,7 @@ LONGEST_SIMULATED = seconds(86_400)
 """Longest simulated time of a command, nanoseconds: a day, as for a scenario."""
 
 FIRST_STAMP = 100_000_000
-"""Seconds from which a time is a stamp; a smaller one is counted from the start."""
+"""Seconds from which a time is a stamp; a smaller time is counted from the start."""
 
 _FRACTION = re.compile(r"[.,](\d+)")
 
