@@ -144,6 +144,15 @@ def test_a_prefix_that_half_of_the_frames_carry():
     assert ids(made) == ["namespace-twins"]
 
 
+def test_a_prefixed_twin_of_a_name_that_only_messages_use():
+    made = Robot()
+    made.moving("world", "vicon/auk")
+    made.hears("/imu", "auk", kind="sensor_msgs/Imu")
+    finding = found(made, "namespace-twins")
+    assert finding.consequence == "no transform names auk: nothing can place /imu"
+    assert finding.fixes[0].text.endswith("the messages on /imu should name the one in tf")
+
+
 def test_transforms_on_a_namespaced_topic():
     made = Robot()
     made.moving("odom", "base_link", topic="/r1/tf")
@@ -282,6 +291,12 @@ def test_all_measurements_without_a_frame_name_are_one_finding():
     (fix,) = told[0].fixes
     assert fix.text.startswith("find the publisher of each topic, and set header.frame_id there: ")
     assert fix.text.count("topic info --verbose") == 2
+    evidence = made.evidence()
+    known = tuple(Publisher(topic, "/auv") for topic in ("/depth", "/dvl"))
+    evidence = replace(evidence, publishers=(*evidence.publishers, *known))
+    finding = next(one for one in judge(evidence).findings if one.id == "empty-frame")
+    (fix,) = finding.fixes
+    assert fix.text == "set header.frame_id in /auv, which publishes /depth, /dvl"
 
 
 def test_messages_without_a_stamp_and_a_frame_were_not_meant_for_tf():

@@ -340,13 +340,18 @@ def _is_measured(heard: Heard) -> bool:
 
 def _name_them(model: Model, topics: Sequence[str]) -> tuple[Fix, ...]:
     """Return the next steps for topics whose messages have no frame name."""
-    fixes, unknown = [], []
+    of_nodes: dict[str, list[str]] = defaultdict(list)
+    unknown = []
     for topic in topics:
         nodes = sorted({one.node for one in model.evidence.publishers if one.topic == topic})
         if all(nodes) and nodes:
-            fixes.append(Fix(f"set header.frame_id in {several(nodes)}, which publishes {topic}"))
+            of_nodes[several(nodes)].append(topic)
         else:
             unknown.append(f"`{{publishers}} {topic}`")
+    fixes = [
+        Fix(f"set header.frame_id in {nodes}, which publishes {several(told, 3)}")
+        for nodes, told in of_nodes.items()
+    ]
     if unknown:
         whose = "its publisher" if len(unknown) == 1 else "the publisher of each topic"
         text = f"find {whose}, and set header.frame_id there: {several(unknown, 3)}"
