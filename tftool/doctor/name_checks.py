@@ -12,6 +12,7 @@ from tftool.doctor.missing_joins import (
 )
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_stream import family, last_part
+from tftool.doctor.wording import several
 
 check = checks_of(Area.NAMES)
 
@@ -196,8 +197,7 @@ def _shared(one: str, other: str) -> int:
     rule="a frame name exists with and without a prefix, in different trees",
     headline="{first} and {bare} look like one frame: some names have the prefix {prefix}",
     detail="{twins}",
-    consequence="the frames with the prefix and those without are two trees",
-    fixes=(Fix("look which nodes send them: `{publishers} /tf`"),),
+    consequence="{so}",
     causes=(
         "diff_drive_controller prefixes names with its namespace, robot_state_publisher does not",
         "frame_prefix without its trailing slash, or on names that have it already",
@@ -224,15 +224,26 @@ def namespace_twins(model: Model, limits: Limits) -> Iterator[Hit]:
                 break
     for prefix, twins in pairs.items():
         frames = [name for pair in twins for name in pair]
+        so = "the frames with the prefix and those without are two trees"
+        fix = Fix("look which nodes send them: `{publishers} /tf`")
+        if unknown := [name for name in frames if name not in model.frames]:
+            topics = several(_topics_in(model, unknown), 3)
+            so = f"no transform names {several(unknown, 3)}: nothing can place {topics}"
+            fix = Fix(f"look which frame the publishers of {topics} mean")
+            if len(unknown) < len(frames):
+                text = f"if both are one frame, the messages on {topics} should name the one in tf"
+                fix = Fix(text)
         yield Hit(
             frames=tuple(frames),
             topics=_topics_in(model, frames),
             count=len(twins),
+            fixes=(fix,),
             facts={
                 "prefix": prefix,
                 "twins": [f"{name} and {bare}" for name, bare in twins],
                 "first": twins[0][0],
                 "bare": twins[0][1],
+                "so": so,
             },
             alone=True,
         )
