@@ -6,7 +6,7 @@ from collections.abc import Callable
 from functools import cache
 from typing import Final, NamedTuple
 
-from tftool.base.errors import InputError
+from tftool.base.errors import InputError, MalformedMessage
 from tftool.messages.classes import INTERFACES, Interfaces, completed
 from tftool.messages.codec import Codec, RecordedCodec
 from tftool.messages.hashes import type_hash
@@ -208,6 +208,8 @@ def as_ros2(channel: Channel) -> Conversion:
 def as_ros1(channel: Channel) -> Conversion:
     """Return the conversion of a ROS 2 channel to ROS 1.
 
+    The function that converts a message raises InputError for a value that ROS 1 cannot store.
+
     Raises:
         InputError: If the type is unknown or has no equivalent in ROS 1, or the messages are not
             encoded as in ROS 1 or ROS 2.
@@ -230,13 +232,22 @@ def as_ros1(channel: Channel) -> Conversion:
         ros1_definition(full, interfaces).encode(),
         tuple(metadata.items()),
     )
-    if interfaces is INTERFACES:
-        any_release = RecordedCodec(interfaces, full, CDR)
-        return Conversion(
-            written, lambda payload: write.encode(completed(any_release.decode(payload), kind))
-        )
-    read = Codec(kind, CDR)
-    return Conversion(written, lambda payload: write.encode(read.decode(payload)))
+    is_ours = interfaces is INTERFACES
+    read = RecordedCodec(interfaces, full, CDR) if is_ours else Codec(kind, CDR)
+
+    def payload(data: bytes) -> bytes:
+        message = completed(read.decode(data), kind) if is_ours else read.decode(data)
+        try:
+            return write.encode(message)
+        except MalformedMessage as error:
+            # Seconds are signed in ROS 2, and unsigned in ROS 1; all other fields are alike.
+            raise InputError(
+                f"A message of '{channel.topic}' has a value that a ROS 1 bag cannot store, such "
+                "as a stamp below 0: write an .mcap or .db3 file, or change the stamps first "
+                "('tftool edit --shift' or '--restamp log')."
+            ) from error
+
+    return Conversion(written, payload)
 
 
 def _known(channel: Channel, encoding: str) -> tuple[str, Interfaces]:

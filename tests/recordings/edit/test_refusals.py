@@ -15,6 +15,7 @@ from tftool import Buffer, Transform, TransformStamped, export
 from tftool.base.errors import InputError, UsageError
 from tftool.recordings.edit.changes import Edits
 from tftool.recordings.edit.rewrite import edit
+from tftool.recordings.recording_writer import write_recording
 
 
 def test_the_input_and_what_is_there_are_never_written_to(tmp_path, mcap):
@@ -87,6 +88,20 @@ def test_a_shift_after_which_a_stamp_is_not_above_0_is_refused(tmp_path, name):
 
     assert sorted(os.listdir(tmp_path)) == ["a.mcap"]
     assert edit([path], tmp_path / name, Edits(shift=-9 * 10**9)).counts["stamps changed"] == 2
+
+
+def test_a_stamp_below_0_is_refused_where_ros_1_cannot_store_it(tmp_path):
+    path = tmp_path / "early.mcap"
+    with write_recording(path) as recording:
+        for second in (-2, 3):
+            moved = TransformStamped(second * 10**9, "map", "odom", Transform())
+            recording.transforms([moved], log_time=100 * 10**9 + second)
+
+    with pytest.raises(InputError, match="'/tf' has a value that a ROS 1 bag cannot store"):
+        edit([path], tmp_path / "out.bag", Edits())
+    assert [file.name for file in tmp_path.iterdir()] == ["early.mcap"]
+    assert edit([path], tmp_path / "out.bag", Edits(restamp=True)).messages == 2
+    assert edit([path], tmp_path / "out.db3", Edits()).messages == 2
 
 
 def test_of_a_recording_without_transforms_it_is_said_that_there_are_none(tmp_path):
