@@ -264,9 +264,10 @@ def test_a_stamp_0_in_a_pose_file_is_fixed_in_the_file(tftool, tmp_path):
     [
         (["--select", "gap", "--ignore", "gap"], "--ignore leaves out every check"),
         (["--select", "gap,edge-stopped", "--ignore", "coverage"], "leaves out every check"),
-        (["--list", "--json"], "--list prints text: leave out --json."),
-        (["--explain", "gap", "--json"], "--explain prints text: leave out --json."),
-        (["--explain", "gap", "--markdown"], "--explain prints text: leave out --markdown."),
+        (["--list", "--json"], "--list only prints text about checks: leave out turtles, --json."),
+        (["--list", "--explain", "gap"], "--list only prints text about checks: leave out"),
+        (["--explain", "gap", "--markdown"], "leave out turtles, --markdown."),
+        (["--explain", "gap", "--fail-on", "warning", "--domain", "3"], "--fail-on, --domain."),
     ],
 )
 def test_options_without_effect_are_refused(tftool, options, told):

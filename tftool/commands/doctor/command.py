@@ -98,6 +98,7 @@ def _no_report(path: Path, what: str) -> InputError:
 
 def run(connection: Connection, options: DoctorOptions) -> ExitStatus:
     """Run `tftool doctor`: print or write the findings, and return the exit status."""
+    _refuse_ignored(connection, options)
     _refuse_contradictions(options)
     if options.listed or options.explain:
         return _show_checks("" if options.listed else options.explain, markdown=options.markdown)
@@ -195,6 +196,26 @@ def _sources(options: DoctorOptions) -> list[str | None]:
     return [*expanded(options.places)] if options.places else [None]
 
 
+def _refuse_ignored(connection: Connection, options: DoctorOptions) -> None:
+    """Raise UsageError if arguments are given beside --list or --explain, which ignores them."""
+    context = connection.context
+    if context is None or not (options.listed or options.explain):
+        return
+    meant = "listed" if options.listed else "explain"
+    told = "--list" if options.listed else "--explain"
+    used = {meant, "markdown"} if options.listed else {meant}
+    given = []
+    for option in context.command.params:
+        source = context.get_parameter_source(option.name or "")
+        if option.name not in used and source is not None and source.name == "COMMANDLINE":
+            is_option = option.param_type_name == "option"
+            given.append(option.opts[0] if is_option else " ".join(options.places or ()))
+    if given:
+        raise UsageError(
+            f"{told} only prints text about checks: leave out {visible(', '.join(given))}."
+        )
+
+
 def _refuse_contradictions(options: DoctorOptions) -> None:
     """Raise UsageError if two options contradict each other."""
     asked = {
@@ -209,15 +230,10 @@ def _refuse_contradictions(options: DoctorOptions) -> None:
     others = " and ".join(name for name, given in asked.items() if given)
     makes_rows = options.output is not None
     selected = checks_named(_words(options.select)) or list(CHECKS)
-    only_tells = "--list" if options.listed else "--explain" if options.explain else ""
     refuse(
         (
             options.for_programs and options.markdown,
             "--json and --markdown are two output formats: leave one out.",
-        ),
-        (
-            only_tells and (options.for_programs or (options.explain and options.markdown)),
-            f"{only_tells} prints text: leave out {others}.",
         ),
         (
             set(selected) <= set(checks_named(_words(options.ignore))),
