@@ -166,6 +166,14 @@ SET = ["--set", "base_link:laser=1,2,3,0,0,0"]
             ["--reparent", "base_link:arm=odom", "--reparent", "base_link:arm=map"],
             "--reparent is given twice for base_link:arm",
         ),
+        (
+            [*SET, "--set", "*:laser=4,5,6,0,0,0"],
+            "--set base_link:laser and --set *:laser give one link different poses",
+        ),
+        (
+            ["--set", "base_link:*=4,5,6,0,0,0", "--set", "*:laser=1,2,3,0,0,0"],
+            "--set base_link:* and --set *:laser give one link different poses",
+        ),
         ([*SET, "--drop", "*:laser"], "--drop removes base_link:laser, which --set"),
         (
             ["--drop", "base_link:arm", "--reparent", "base_link:arm=odom"],
@@ -185,7 +193,8 @@ def test_options_that_contradict_each_other_are_refused(run, capsys, words, told
 
 
 def test_options_that_do_not_contradict_each_other_are_accepted(run, capsys):
-    words = [*SET, *SET, "--drop", "base_link:arm", "--set", "*:arm=1,2,3,0,0,0"]
+    words = [*SET, *SET, "--drop", "base_link:arm", "--set", "*:arm=4,5,6,0,0,0"]
+    words += ["--set", "*:laser=1,2,3,0,0,0"]
 
     assert main(["edit", "a.mcap", "-o", "b.mcap", *words]) == 0
 

@@ -1,5 +1,6 @@
 """Implementation of `tftool edit`: change the frames of recordings; repair, join and cut them."""
 
+import itertools
 import math
 import re
 import sys
@@ -158,6 +159,17 @@ def _repeated(pairs: Sequence[tuple[str, object]]) -> str:
     return next((name for name, count in counts.items() if count > 1), "")
 
 
+def _overlapping(poses: Sequence[tuple[LinkName, tuple[float, ...]]]) -> tuple[str, ...]:
+    """Return the first two patterns that name a common link, but set different poses; or ()."""
+    for (first, pose), (second, other) in itertools.combinations(poses, 2):
+        is_common = all(
+            one == two or "*" in (one, two) for one, two in zip(first, second, strict=True)
+        )
+        if is_common and pose != other:
+            return ":".join(first), ":".join(second)
+    return ()
+
+
 def _statics(name: str) -> "tuple[TransformStamped, ...]":
     """Return the static transforms of a robot description or a recording.
 
@@ -212,10 +224,16 @@ def run(options: EditOptions) -> ExitStatus:
         "--set": _repeated([(":".join(link), pose) for link, pose in poses]),
         "--reparent": _repeated([(":".join(link), parent) for link, parent in reparent]),
     }
+    overlapping = _overlapping(poses)
     refuse(
         *(
             (name, f"{option} is given twice for {name}, with different values: leave one out.")
             for option, name in repeated.items()
+        ),
+        (
+            overlapping,
+            f"--set {' and --set '.join(overlapping)} give one link different poses: leave one "
+            "out.",
         ),
         (
             dropped,
