@@ -199,6 +199,22 @@ def test_options_that_do_not_contradict_each_other_are_accepted(run, capsys):
     assert main(["edit", "a.mcap", "-o", "b.mcap", *words]) == 0
 
 
+@pytest.mark.parametrize(
+    "words", [["edit", "-o", "b.mcap"], ["edit", "-o", "b.mcap", "--record-time"], ["doctor"]]
+)
+def test_a_stamp_that_is_no_number_of_seconds_is_told_as_seconds(tmp_path, tftool, words):
+    path = tmp_path / "run.mcap"
+    with write_recording(path) as recording:
+        for second in (1000, 1030):
+            moved = TransformStamped(seconds(second), "map", "odom", Transform())
+            recording.transforms([moved], log_time=seconds(second))
+    command, *options = words
+
+    told = tftool(command, path, *options, "--from", "1012.5").err
+    assert "Only numbers from 1e8 are stamps: for this stamp, write 12.5." in told
+    assert "are stamps" not in tftool(command, path, *options, "--from", "900").err
+
+
 @pytest.mark.parametrize("others", [[], ["none.mcap"]])
 @pytest.mark.parametrize(
     ("words", "told"),

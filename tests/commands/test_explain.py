@@ -18,6 +18,21 @@ def test_a_lookup_between_two_samples_is_refused_with_the_wait_it_needs(tftool):
     assert "cure   a timeout of 10 ms (least: 8.0)" in result.out
 
 
+@pytest.mark.parametrize("option", [("--at", "1005"), ("--message", "/tf@1005")])
+def test_a_stamp_that_is_no_number_of_seconds_is_refused_as_by_echo(tftool, tmp_path, option):
+    file = tmp_path / "carrot.mcap"
+    assert tftool("export", "carrot", "-o", file).status == 0
+
+    result = tftool("explain", "world", "turtle1", file, *option)
+    assert (result.status, result.out) == (2, "")
+    assert "the time 1005 s is after its end. Only numbers from 1e8 are stamps" in result.err
+    assert "write 5." in result.err
+    scenario = tftool("explain", "world", "turtle1", "carrot", "--at", "1005").err
+    assert scenario.startswith("tftool: scenario 'carrot' lasts ")
+    assert tftool("echo", "world", "turtle1", "carrot", "--at", "1005").err == scenario
+    assert tftool("explain", "world", "turtle1", file, "--at", "900").status == 4
+
+
 def test_a_question_before_a_frame_begins_is_told_what_to_ask_for(tftool):
     result = tftool("explain", "turtle2", "turtle1", "turtles", "--at", "0.5")
     assert result.status == 4

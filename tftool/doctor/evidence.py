@@ -167,6 +167,9 @@ class Moment(Protocol):
     def stamp(self, epoch: Stamp) -> Stamp:
         """Return the time as a stamp in nanoseconds; `epoch` is the first stamp of the source."""
 
+    def meant(self, epoch: Stamp, end: Stamp) -> str:
+        """Return a hint if the time was probably meant as a stamp, else ""; a space comes first."""
+
 
 @dataclass(frozen=True, slots=True)
 class Scope:
@@ -215,9 +218,12 @@ def evidence_of_recording(recording: "Recording", scope: Scope | None = None) ->
         raise UsageError("--to is before --from: exchange the two times.")
     if begin > evidence.end or end < evidence.start or begin >= end:
         length = as_seconds(evidence.end - evidence.start)
+        # Log times and stamps may be times of two clocks; a user may mean either.
+        spans = (evidence.start, evidence.end), (recording.start or 0, recording.end or 0)
+        meant = [] if scope.begin is None else [scope.begin.meant(*span) for span in spans]
         raise InputError(
             f"'{source.name}' has no data between --from and --to: choose times from 0 to "
-            f"{length:.3f} s, the length of the recording."
+            f"{length:.3f} s, the length of the recording.{next(filter(None, meant), '')}"
         )
     return within(evidence, max(begin, evidence.start), min(end, evidence.end))
 

@@ -11,6 +11,7 @@ from pathlib import Path
 from tftool.base.errors import UsageError
 from tftool.base.exit_status import ExitStatus
 from tftool.base.plain_text import visible
+from tftool.base.stamps import as_seconds
 from tftool.buffer.forest import stripped
 from tftool.buffer.sample import TransformStamped
 from tftool.commands.edit import EditOptions
@@ -66,15 +67,25 @@ def _moments(
                 "--record-time is only allowed with --from or --to: add --from or --to."
             )
         return None, None
-    epoch = 0
+    epoch = last = 0
     if any(one is not None and not one.is_stamp for one in (start, end)):
-        found = []
+        spans = []
         for name in names:
             with open_recording(name) as recording:
-                found.append(recording.source.start if by_record_time else recording.start)
-        epoch = min((one for one in found if one), default=0)
+                source = recording.source
+                first = source.start if by_record_time else recording.start or 0
+                # Messages of other topics may be later than the last transform.
+                spans.append((first, max(recording.end or 0, first + source.end - source.start)))
+        epoch = min((first for first, _ in spans if first), default=0)
+        last = max(over for _, over in spans)
     low = start.stamp(epoch) if start is not None else None
     high = end.stamp(epoch) if end is not None else None
+    meant = "" if start is None or start.stamp(epoch) <= last else start.meant(epoch, last)
+    if meant:
+        lasts = as_seconds(last - epoch)
+        raise UsageError(
+            f"The recording lasts {lasts:g} s: --from {start} is after its end.{meant}"
+        )
     if low is not None and high is not None and high < low:
         raise UsageError("--to is before --from: exchange the two times.")
     return low, high

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 from tftool.base.errors import UsageError
 from tftool.base.exit_status import ExitStatus
 from tftool.base.plain_text import visible
-from tftool.base.stamps import LATEST, seconds
+from tftool.base.stamps import LATEST, Stamp, seconds
 from tftool.commands.explain import ExplainOptions
 from tftool.commands.shared.connection import Connection, open_from
 from tftool.commands.shared.evidence_sources import evidence_from
@@ -20,6 +20,7 @@ from tftool.doctor.model import Model, Settings
 from tftool.doctor.trace import Question, message_of
 from tftool.drawing import explanation_view, joint_chain_view
 from tftool.frames.frame_files import beyond_limits
+from tftool.frames.source_options import At, checked_moment
 from tftool.opener import named
 from tftool.recordings.find import Kind
 
@@ -60,7 +61,7 @@ def run(connection: Connection, options: ExplainOptions) -> ExitStatus:
     for text in evidence.damage:
         notice(visible(text))
     model = Model(evidence, settings)
-    stamp = LATEST if at is None else at.stamp(model.epoch)
+    stamp = LATEST if at is None else _moment(model, at)
     if topic:
         heard, stamp = message_of(model, topic, stamp or None)
         source = source or heard.frame
@@ -71,6 +72,24 @@ def run(connection: Connection, options: ExplainOptions) -> ExitStatus:
         found = over_time(model, question, found)
     _print(explanation_view, found, for_programs=options.for_programs)
     return ExitStatus.DONE if found.available else ExitStatus.NO_TRANSFORM
+
+
+def _moment(model: Model, at: At) -> Stamp:
+    """Return the stamp of a time, which may be after the end, as may be the time of a lookup.
+
+    Raises:
+        UsageError: If the time is after the end, and was probably meant as a stamp.
+    """
+    evidence, epoch = model.evidence, model.epoch
+    if evidence.kind != LIVE:
+        stamps = (int(one.sorted_stamps[-1]) for one in model.dynamic if len(one.sorted_stamps))
+        # Messages may continue after the last transform.
+        last = max([*stamps, epoch + evidence.end - evidence.start])
+        if at.meant(epoch, last):
+            name = visible(evidence.name)
+            title = f"recording '{name}'" if evidence.recorded else name
+            return checked_moment(at, title, epoch, last - epoch)
+    return at.stamp(epoch)
 
 
 def _explain_joints(
