@@ -128,6 +128,73 @@ def test_a_pool_may_ask_and_log_but_not_wait_on_simulated_time(node, ros_runtime
     assert ros_runtime.log("probe") == ["from the pool"]
 
 
+POOLS = """
+import concurrent.futures
+import threading
+import time
+from concurrent import futures
+from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, as_completed, wait
+
+import rclpy
+
+
+def work(seconds):
+    time.sleep(seconds)
+    return seconds
+
+
+rclpy.init()
+node = rclpy.create_node('pools')
+begin = time.time()
+say = lambda text: node.get_logger().info(f'{time.time() - begin:.1f} {text}')
+assert futures.ThreadPoolExecutor is concurrent.futures.ThreadPoolExecutor is ThreadPoolExecutor
+with ThreadPoolExecutor(max_workers=2) as pool:
+    begun = [pool.submit(work, seconds) for seconds in (2, 1, 1.5)]
+    say(len(wait(begun, return_when=FIRST_COMPLETED).done))
+    for future in as_completed(begun, timeout=9):
+        say(future.result())
+    late = pool.submit(work, 3)
+    try:
+        late.result(timeout=1)
+    except TimeoutError:
+        say('late')
+    event = threading.Event()
+    waits = pool.submit(event.wait)
+    event.set()
+    say(waits.result())
+    failed = pool.submit(int, 'x')
+    say(wait([failed, late], return_when=futures.FIRST_EXCEPTION).not_done == {late})
+    say(list(pool.map(work, [0.5, 0.5])))
+say('closed')
+try:
+    pool.submit(work, 1)
+except RuntimeError as error:
+    say(error)
+"""
+
+
+def test_the_threads_of_a_programs_pool_wait_on_the_clock_of_the_run(ros_runtime, tmp_path):
+    file = tmp_path / "pools.py"
+    file.write_text(POOLS)
+    program = ros_runtime.start(file)
+    ros_runtime.sleep(10)
+
+    assert program.status == 0
+    # One of two threads works for 2 and then, on the late job, 3 s; the other does the rest.
+    assert ros_runtime.log("pools") == [
+        "1.0 1",
+        "1.0 1",
+        "2.0 2",
+        "2.5 1.5",
+        "3.5 late",
+        "3.5 True",
+        "3.5 True",
+        "4.5 [0.5, 0.5]",
+        "5.5 closed",
+        "5.5 cannot schedule new futures after shutdown",
+    ]
+
+
 def test_a_timer_of_threading_waits_in_the_worlds_time(ros_runtime, tmp_path):
     file = tmp_path / "later.py"
     file.write_text(

@@ -1,4 +1,4 @@
-"""Replacements of five standard modules and of `print` for users' programs.
+"""Replacements of six standard modules and of `print` for users' programs.
 
 A user's file that imports one of these modules gets a version that works with tftool's clock:
 
@@ -6,6 +6,7 @@ A user's file that imports one of these modules gets a version that works with t
 - `threading`: threads take turns, and the timeouts of locks count seconds of tftool's clock.
 - `queue`: the standard queues, based on these locks.
 - `asyncio`: timers of event loops use tftool's time.
+- `concurrent.futures`: pools of such threads, and futures based on these locks.
 - `signal`: a handler belongs to one program instead of the process.
 
 All other files, such as those of libraries, get Python's standard modules.
@@ -13,6 +14,8 @@ All other files, such as those of libraries, get Python's standard modules.
 
 import asyncio
 import builtins
+import concurrent
+import concurrent.futures
 import importlib.util
 import io
 import queue
@@ -21,7 +24,7 @@ import signal
 import sys
 import threading
 import time
-from collections.abc import Callable, Coroutine
+from collections.abc import Callable, Coroutine, Iterable, Iterator
 from functools import cache, partial
 from types import ModuleType
 from typing import Any
@@ -134,6 +137,106 @@ class UserTimer(UserThread, threading.Timer):
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
         self.finished: Any = locks.UserEvent()
+
+
+Future = concurrent.futures.Future[Any]
+
+
+class UserFuture(concurrent.futures.Future[Any]):
+    """Future of a `UserThreadPool`, whose timeouts count seconds of tftool's clock."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._condition = locks.UserCondition()
+
+
+class UserThreadPool(concurrent.futures.ThreadPoolExecutor):
+    """Replacement of `ThreadPoolExecutor` whose threads run as fibers of the user's program."""
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self._jobs: Any = _queues().SimpleQueue()
+        self._workers: list[UserThread] = []
+        self._idle = 0
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future:
+        """Let a thread of the pool call `fn`; return a future for the result."""
+        if running_program() is None:
+            return super().submit(fn, *args, **kwargs)
+        if self._shutdown:
+            raise RuntimeError("cannot schedule new futures after shutdown")
+        future = UserFuture()
+        self._jobs.put((future, partial(fn, *args, **kwargs)))
+        if self._jobs.qsize() > self._idle and len(self._workers) < self._max_workers:
+            name = f"{self._thread_name_prefix}_{len(self._workers)}"
+            self._workers.append(UserThread(target=self._work, name=name))
+            self._workers[-1].start()
+        return future
+
+    def _work(self) -> None:
+        if self._initializer is not None:
+            self._initializer(*self._initargs)
+        while True:
+            self._idle += 1
+            job = self._jobs.get()
+            self._idle -= 1
+            if job is None:
+                return
+            future, call = job
+            if not future.set_running_or_notify_cancel():
+                continue
+            try:
+                result = call()
+            except BaseException as error:
+                future.set_exception(error)
+            else:
+                future.set_result(result)
+
+    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
+        """Refuse further calls; with `wait`, block until the pool's threads have ended."""
+        super().shutdown(wait, cancel_futures=cancel_futures)
+        while cancel_futures and not self._jobs.empty():
+            self._jobs.get()[0].cancel()
+        for _ in self._workers:
+            self._jobs.put(None)
+        for worker in self._workers if wait else ():
+            worker.join()
+
+
+def _wait_for_futures(
+    fs: Iterable[Future],
+    timeout: float | None = None,
+    return_when: str = concurrent.futures.ALL_COMPLETED,
+) -> Any:
+    """Block until some or all futures are done, as `concurrent.futures.wait` does."""
+    futures = set(fs)
+    state = locks.StateMonitor()
+
+    def is_over() -> bool:
+        done = [one for one in futures if one.done()]
+        if return_when == concurrent.futures.FIRST_COMPLETED and done:
+            return True
+        failed = (one for one in done if not one.cancelled() and one.exception() is not None)
+        if return_when == concurrent.futures.FIRST_EXCEPTION and any(failed):
+            return True
+        return len(done) == len(futures)
+
+    for one in futures:
+        one.add_done_callback(lambda _: state.wake())
+    state.wait(is_over, timeout)
+    # This returns at once, with the standard library's own type.
+    return concurrent.futures.wait(futures, 0.0)
+
+
+def _as_completed(fs: Iterable[Future], timeout: float | None = None) -> Iterator[Future]:
+    """Yield each future when it is done, as `concurrent.futures.as_completed` does."""
+    left, end = set(fs), None if timeout is None else _elapsed_ns() + seconds(timeout)
+    while left:
+        rest = None if end is None else max(0, end - _elapsed_ns()) / NANOSECONDS
+        done, left = _wait_for_futures(left, rest, concurrent.futures.FIRST_COMPLETED)
+        if not done:
+            raise TimeoutError(f"{len(left)} futures are not finished")
+        yield from done
 
 
 _HANDLERS: WeakKeyDictionary[Any, dict[int, Any]] = WeakKeyDictionary()
@@ -262,7 +365,17 @@ def _run_coroutine(main: Coroutine[Any, Any, Any], *, debug: bool | None = None)
         return runner.run(main)
 
 
+_FUTURES = _Shim(
+    concurrent.futures,
+    {
+        "ThreadPoolExecutor": UserThreadPool,
+        "wait": _wait_for_futures,
+        "as_completed": _as_completed,
+    },
+)
 _SHIMS: dict[str, ModuleType] = {
+    "concurrent": _Shim(concurrent, {"futures": _FUTURES}),
+    "concurrent.futures": _FUTURES,
     "time": _Shim(
         time,
         {
@@ -305,7 +418,8 @@ def _import(
     name: str, globals: Any = None, locals: Any = None, fromlist: Any = (), level: int = 0
 ) -> Any:
     if level == 0 and name in _SHIMS:
-        return _SHIMS[name]
+        # `import concurrent.futures` gives the outer module.
+        return _SHIMS[name if fromlist else name.partition(".")[0]]
     if level == 0 and name == "queue":
         return _queues()
     owner = running_program()
@@ -318,6 +432,6 @@ def _import(
 BUILTINS_FOR_USERS = {**vars(builtins), "__import__": _import, "print": _print}
 """Python's builtins with a different `print` and `import`.
 
-A user's module with these builtins imports tftool's versions of time, threading, queue, asyncio and
-signal.
+A user's module with these builtins imports tftool's versions of time, threading, queue, asyncio,
+concurrent.futures and signal.
 """
