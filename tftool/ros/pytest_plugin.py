@@ -56,11 +56,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def _provide(root: Path) -> None:
-    """Make ROS 2's modules and the packages of a workspace importable.
-
-    Args:
-        root: Folder of the tests, inside the workspace.
-    """
+    """Make ROS 2's modules and the packages of a workspace importable."""
     if not _imports:
         from tftool.ros.testing import ros_imports
 

@@ -52,11 +52,6 @@ class FoundProgram:
 def find_program(workspace: Workspace, target: str, further_words: Sequence[str]) -> FoundProgram:
     """Find the Python file, or the executable of a package, that a command line names.
 
-    Args:
-        workspace: Workspace in which packages are searched.
-        target: Path of the file, or name of the package.
-        further_words: The command line after `target`; for a package, first the executable.
-
     Raises:
         UsageError: If no executable is given, if there is no such executable, or if the part
             after `--ros-args` is malformed.

@@ -30,13 +30,7 @@ DEFINED = (
 
 
 def missing_name(module: str, name: str, existing: Sequence[str]) -> str:
-    """Return the error text for importing a name that tftool's version of a ROS module lacks.
-
-    Args:
-        module: ROS name of the module, such as "rclpy.node".
-        name: The name that a program tried to import.
-        existing: Names that the module has.
-    """
+    """Return the error text for importing a name that tftool's version of a ROS module lacks."""
     # Propose only very similar names, because another name of ROS 2 is probably no misspelling.
     near = near_names(name, existing, alike=0.8)
     package = module.partition(".")[0]
@@ -56,22 +50,13 @@ def missing_name(module: str, name: str, existing: Sequence[str]) -> str:
 
 
 def undeclared(parameter: str, declared: Iterable[str]) -> str:
-    """Return the warning that a node was started with a parameter that it never declares.
-
-    Args:
-        parameter: Name of the parameter.
-        declared: Names of the parameters that the node declares, for "did you mean".
-    """
+    """Return the warning that a node was started with a parameter that it never declares."""
     hint = did_you_mean(parameter, declared)
     return f"parameter '{parameter}' was set, but the node declares no such parameter{hint}"
 
 
 def near_keyword(keyword: str, callee: Any) -> str:
     """Return a hint "; did you mean …" with the parameter of `callee` most similar to `keyword`.
-
-    Args:
-        keyword: Keyword argument that `callee` does not accept.
-        callee: Function or class that the user's code called.
 
     Returns:
         The hint; "" if no parameter has a similar name.

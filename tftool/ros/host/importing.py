@@ -164,9 +164,7 @@ def _defined(module: ModuleType) -> dict[str, Any]:
 def _names_in(package: str, module: str) -> list[str]:
     """Return the names of the interfaces in a module of a package of interfaces.
 
-    Args:
-        package: Name of the package, such as "std_msgs".
-        module: Path of the module in the package, such as "msg" or "msg._string".
+    `module` is a path in the package, such as "msg" or "msg._string".
     """
     kind, _, own = module.partition(".")
     names = INTERFACES.names(package, kind) if kind else []
@@ -472,8 +470,7 @@ def unload_hidden(folder: Path) -> None:
 def search_last(roots: Callable[[], Iterable[str]]) -> None:
     """Add folders in which imports look for users' modules, after the programs' own folders.
 
-    Args:
-        roots: Function that returns the folders; called at the first import of a user's module.
+    `roots` is called at the first import of a user's module.
     """
     if _finder is not None:
         _finder.behind.append(roots)

@@ -45,10 +45,6 @@ class InstalledPart:
 def installed_parts(package: Package, siblings: Iterable[str] = ()) -> Iterator[InstalledPart]:
     """Yield a package's nodes, launch files and dependencies with the faults in their declarations.
 
-    Args:
-        package: Package to check.
-        siblings: Names of all packages in the same workspace.
-
     Raises:
         InputError: If one of the package's files cannot be read.
     """
@@ -65,11 +61,6 @@ def faults_about(package: Package, file: Path, siblings: Iterable[str] = ()) -> 
     """Return the reasons why ROS 2 would not find a node or launch file, or its dependencies.
 
     For a launch file, the faults of the nodes named in the file are included.
-
-    Args:
-        package: Package that contains the file.
-        file: Path of the node or launch file.
-        siblings: Names of all packages in the same workspace.
     """
     try:
         parts = list(installed_parts(package, siblings))
@@ -83,12 +74,7 @@ def faults_about(package: Package, file: Path, siblings: Iterable[str] = ()) -> 
 
 
 def entry_point_fault(package: Package, name: str) -> str:
-    """Return the reason why a console script cannot start; "" if the script can start.
-
-    Args:
-        package: Package whose setup.py declares the script.
-        name: Name of the script.
-    """
+    """Return the reason why a console script cannot start; "" if the script can start."""
     module, _, function = package.scripts[name].partition(":")
     path = package.path.joinpath(*module.split("."))
     if not path.with_suffix(".py").is_file() and not (path / "__init__.py").is_file():

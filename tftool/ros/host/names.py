@@ -75,11 +75,6 @@ class RosOptions:
     def remapped(self, full_name: str, name: str, namespace: str) -> str:
         """Apply a node's remapping rules to a full topic or service name.
 
-        Args:
-            full_name: Full name, without leading slash.
-            name: The node's name.
-            namespace: The node's namespace.
-
         Returns:
             The new full name; `full_name` if no rule matches.
         """
@@ -193,10 +188,7 @@ def check_namespace(namespace: str) -> None:
 def expand(topic: str, node_name: str, namespace: str) -> str:
     """Return the full name of a topic or service, without leading slash.
 
-    Args:
-        topic: Relative (`x`), absolute (`/x`) or private (`~/x`) name.
-        node_name: The node's name.
-        namespace: The node's namespace.
+    A name is relative (`x`), absolute (`/x`) or private (`~/x`).
 
     Raises:
         UsageError: If ROS 2 refuses the topic name.

@@ -51,8 +51,7 @@ class Package:
     def script_file(self, name: str) -> Path | None:
         """Return the Python file of an executable in a package without setup.py.
 
-        Args:
-            name: Name of the executable, which is the file's name with or without ".py".
+        The name of an executable is the file's name with or without ".py".
 
         Returns:
             Path of the file; None if there is no such file.
@@ -192,11 +191,6 @@ def _moved(folder: Path, share_path: str, data_files: Any) -> Iterator[tuple[str
     """Yield (installed path, source file) for each file that setup.py installs under a new path.
 
     The installed path is relative to the share directory; in `folder` the file has another path.
-
-    Args:
-        folder: Source folder of the package.
-        share_path: Path of the package's share directory, such as "share/turtles".
-        data_files: Value of `data_files` in setup.py.
     """
     for entry in data_files if isinstance(data_files, list) else ():
         if not (isinstance(entry, list) and len(entry) == 2 and isinstance(entry[1], list)):

@@ -65,9 +65,7 @@ def read_parameters(
 ) -> list[tuple[str, str, Any]]:
     """Read a ROS 2 parameter file; return a tuple (node pattern, name, value) for each parameter.
 
-    Args:
-        path: Path of the file.
-        substitute: Function that rewrites the file's text before it is parsed.
+    `substitute` rewrites the file's text before it is parsed.
 
     Raises:
         InputError: If the file cannot be read, is not YAML, or is not a parameter file.
@@ -98,9 +96,7 @@ def _parameters_in(tree: Any, node: str) -> Iterator[tuple[str, str, Any]]:
 
     Working on YAML nodes instead of mappings preserves keys that occur more than once.
 
-    Args:
-        tree: YAML node of a parameter file.
-        node: Pattern of ROS node names that the keys above `tree` form.
+    The keys above `tree` form `node`, a pattern of node names.
     """
     if not isinstance(tree, yaml.MappingNode):
         return

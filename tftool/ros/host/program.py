@@ -220,10 +220,7 @@ class Program(Node):
     def new_fiber(self, name: str, body: Callable[[], object], **settings: Any) -> Fiber:
         """Create a fiber that can run `body` as a further thread of this program; do not start it.
 
-        Args:
-            name: Name of the thread.
-            body: Function to run.
-            settings: Further arguments of `Fiber`.
+        `settings` are further arguments of `Fiber`.
         """
         return Fiber(name, body, strict=self.strict, clock=self.world.clock, **settings)
 
@@ -240,13 +237,7 @@ class Program(Node):
         self.say("WARN", self.name, text)
 
     def say(self, level: Level, logger: str, text: str) -> None:
-        """Add a message of this program to the log; call this in the event loop's thread.
-
-        Args:
-            level: Level of the message.
-            logger: Name of the logger.
-            text: The message.
-        """
+        """Add a message of this program to the log; call this in the event loop's thread."""
         self.world.log.add(level, logger, text, program=self.label)
 
     # The fibers' side.
@@ -400,8 +391,7 @@ class Program(Node):
     def _warn_of_polling(self, start: Stamp) -> None:
         """Log a warning once the code has polled in a loop for `GIVE_UP` real seconds.
 
-        Args:
-            start: Time on tftool's clock at which this poll began, nanoseconds.
+        `start` is the time on tftool's clock at which this poll began, nanoseconds.
         """
         now = time.monotonic_ns()  # real time, as simulated time hardly advances
         if start != self._polled_until:
@@ -471,9 +461,7 @@ def warn_without_clock(world: World, say: Callable[[str], object]) -> None:
 def set_program_of_thread(program_of_thread: "Callable[[], Program | None] | None") -> None:
     """Set the function that returns the program of a thread without a fiber.
 
-    Args:
-        program_of_thread: Function that returns the program, or None for no program. If the
-            argument is None, an earlier function is removed.
+    If the argument is None, an earlier function is removed.
     """
     global _outsiders
     _outsiders = program_of_thread

@@ -223,9 +223,7 @@ def _single_values(value: Any) -> list[Any]:
 def message_to_ordereddict(msg: Any, **options: Any) -> "OrderedDict[str, Any]":
     """Convert a message to an ordered mapping; nested messages become mappings too.
 
-    Args:
-        msg: The message.
-        options: Options of `plain`.
+    `options` are options of `plain`.
     """
     return OrderedDict(plain(msg, **options))
 
@@ -233,10 +231,7 @@ def message_to_ordereddict(msg: Any, **options: Any) -> "OrderedDict[str, Any]":
 def message_to_yaml(msg: Any, *, flow_style: bool = False, **options: Any) -> str:
     """Return a message as YAML text, with its fields in the order of the definition.
 
-    Args:
-        msg: The message.
-        flow_style: Whether to write everything on one line.
-        options: Options of `plain`.
+    With `flow_style`, write everything on one line; `options` are options of `plain`.
     """
     return as_yaml(plain(msg, **options), flow_style=flow_style)
 

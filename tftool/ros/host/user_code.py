@@ -46,10 +46,8 @@ def _run_file(path: Path, code: CodeType) -> None:
 def load_module(path: Path, name: str = "", code: CodeType | None = None) -> ModuleType:
     """Execute a user's file as a module of the running program, and return the module.
 
-    Args:
-        path: Path of the file.
-        name: Name of the module; by default the file's name without suffix.
-        code: Compiled code of the file; None to compile the file here.
+    Without `code`, the file is compiled here. Without a name, the module gets the file's name
+    without suffix.
 
     Raises:
         InputError: If the file cannot be read or is not valid Python; the text shows the line.
@@ -76,12 +74,7 @@ def load_module(path: Path, name: str = "", code: CodeType | None = None) -> Mod
 
 
 def _reads(code: CodeType, name: str) -> bool:
-    """Return whether a file's top-level statements read the global variable `name`.
-
-    Args:
-        code: Compiled code of the file.
-        name: Name of the variable.
-    """
+    """Return whether a file's top-level statements read the global variable `name`."""
     return any(
         step.opname == "LOAD_NAME" and step.argval == name for step in dis.get_instructions(code)
     )
@@ -113,10 +106,7 @@ def compile_file(path: Path) -> CodeType:
 def entry_point_body(module: str, function: str, *, root: Path) -> Callable[[], None]:
     """Return a function that runs the console script `module:function` of a package.
 
-    Args:
-        module: Name of the module.
-        function: Name of the function in the module, which may contain dots.
-        root: Folder from which the module is imported.
+    The name of the function may contain dots. The module is imported from the folder `root`.
     """
 
     def body() -> None:

@@ -50,9 +50,7 @@ def stamp_of(message: Any) -> Stamp:
 def time_message(stamp: Stamp, kind: str = "Time") -> Any:
     """Return a builtin_interfaces message with `stamp` nanoseconds.
 
-    Args:
-        stamp: Time or duration in nanoseconds.
-        kind: Name of the message: "Time" or "Duration".
+    The message is a Duration if `kind` is "Duration".
     """
     seconds, rest = divmod(stamp, NANOSECONDS)
     return INTERFACES.message(f"builtin_interfaces/{kind}")(sec=seconds, nanosec=rest)

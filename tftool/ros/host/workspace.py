@@ -262,10 +262,7 @@ def missing_package(name: str, workspace: Workspace, provided: tuple[str, ...] =
     The text suggests a package with a similar name, suggests adding a package.xml, or lists all
     packages.
 
-    Args:
-        name: Name of the unknown package.
-        workspace: Workspace that was searched.
-        provided: Names of the packages that tftool provides.
+    `provided` are the packages that tftool provides.
     """
     known = [*workspace.packages, *provided]
     near = near_names(name, known, alike=0.8)
@@ -288,9 +285,7 @@ def _folders(root: Path, depth: int) -> Iterator[tuple[str, bool]]:
 
     Each folder is listed only once, because a home folder may contain thousands of folders.
 
-    Args:
-        root: Folder at which the search begins.
-        depth: Number of levels below `root` to search.
+    Search at most `depth` levels below `root`.
     """
     top = str(root)
     for folder, inner, files in os.walk(top, followlinks=True):

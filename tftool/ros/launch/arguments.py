@@ -61,11 +61,6 @@ def refuse_unknown(
     A name that occurs in the file's text counts as used, because a LaunchConfiguration or a
     function may read the argument.
 
-    Args:
-        path: Path of the launch file.
-        arguments: Arguments on the command line, from name to value.
-        declared: Arguments that the launch file declares.
-
     Raises:
         UsageError: If an argument is not used; the text names the most similar declared argument.
     """
@@ -102,9 +97,7 @@ def shown_arguments(arguments: Sequence[DeclareLaunchArgument]) -> str:
 def find_launch_file(workspace: Workspace, words: Sequence[str]) -> tuple[Path, list[str]]:
     """Find the launch file that the command line of `ros2 launch` names.
 
-    Args:
-        workspace: Workspace in which packages are searched.
-        words: Words of the command line, which begin with `FILE` or `PACKAGE FILE`.
+    The words of the command line begin with `FILE` or `PACKAGE FILE`.
 
     Returns:
         Path of the launch file, and the remaining words.

@@ -86,10 +86,7 @@ class Element:
     def error(self, sentence: str, wrong: str, allowed: Iterable[str]) -> InputError:
         """Return an error with this element's position in the file and a hint "did you mean …".
 
-        Args:
-            sentence: Sentence that describes the error.
-            wrong: The wrong word.
-            allowed: Allowed words; the hint names the one most similar to `wrong`.
+        The hint names the allowed word that is most similar to the wrong word.
         """
         hint = did_you_mean(wrong, allowed)
         return InputError(f"{self.where}: {sentence}{hint}")
@@ -103,9 +100,7 @@ def read(path: Path, data: bytes | None = None) -> list[Element]:
 
     A file is XML if its text begins with a tag or its name ends in ".xml"; otherwise YAML.
 
-    Args:
-        path: Path of the file.
-        data: Content of the file; None to read the file here.
+    Without `data`, the content of the file, the file is read here.
 
     Raises:
         InputError: If the file cannot be read or is not a launch file; the text gives the line.

@@ -229,13 +229,7 @@ class Launch(Node):
         self.subscribe(topic, kind, lambda message: self._guarded(lambda: callback(message)))
 
     def _wrote(self, label: str, line: str, *, to_stdout: bool) -> None:
-        """Handle a line of output: store the line if the action caches output, and emit ProcessIO.
-
-        Args:
-            label: Name of the process in log lines.
-            line: The line.
-            to_stdout: Whether the line went to standard output, not to standard error.
-        """
+        """Store a line of output if the action caches output, and emit ProcessIO."""
         action: Any = self._actions.get(label)
         if getattr(action, "cached_output", False):
             action.output_lines.append((to_stdout, f"{line}\n"))
@@ -368,10 +362,7 @@ class Launch(Node):
     def execute_later(self, action: Any, period: float, actions: Sequence[Any]) -> None:
         """Execute the actions of a timer after a delay, with the arguments of the present scope.
 
-        Args:
-            action: The timer, an action that ends after its inner actions.
-            period: Delay in seconds.
-            actions: Actions to execute.
+        `period` is the delay in seconds. The timer, `action`, ends after its inner actions.
         """
         state = self.context.copy_state()
 
@@ -429,11 +420,7 @@ class Launch(Node):
         Simulated time stops until the command ends, at most for `LONGEST_HOLD` real seconds, unless
         the launch is `contained`.
 
-        Args:
-            action: Action that starts the command; events name this action.
-            name: Name of the command in log lines, to which a number is added.
-            command: Command to start.
-            respawn: Seconds between the end and a new start; see `start_node`.
+        For the arguments see `start_node`; a number is added to `name`, the name in log lines.
         """
         label = self._label(name)
         self._actions[label] = action
@@ -448,10 +435,7 @@ class Launch(Node):
     def start_ros2(self, action: Any, words: Sequence[str], respawn: float | None) -> None:
         """Run a command `ros2 WORDS` as a program of the world, in tftool's process.
 
-        Args:
-            action: Action that runs the command; events name this action.
-            words: Words after `ros2` on the command line.
-            respawn: Seconds between the end and a new start; see `start_node`.
+        For the arguments see `start_node`; `words` are the words after `ros2`.
 
         Raises:
             UsageError: If tftool does not have this command of ROS 2.
@@ -470,11 +454,7 @@ class Launch(Node):
     ) -> str:
         """Run a Python function as a program of the world; return the program's name in log lines.
 
-        Args:
-            action: Action that starts the program; events name this action.
-            argv: Command line of the program; its first word becomes the name in log lines.
-            function: Function to run.
-            respawn: Seconds between the end and a new start; see `start_node`.
+        For the arguments see `start_node`; the first word of `argv` becomes the name in log lines.
         """
         label = self._label(Path(argv[0]).name)
         self._actions[label] = action

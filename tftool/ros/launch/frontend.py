@@ -98,11 +98,6 @@ def _boolean(element: Element, name: str, default: str) -> bool:
     """Return the value of a boolean attribute; raise InputError if the text is not boolean.
 
     A substitution, `$(…)`, is refused too: its value is unknown before the launch runs.
-
-    Args:
-        element: Element with the attribute.
-        name: Name of the attribute.
-        default: Text for an element without the attribute.
     """
     text = str(element.get(name, default))
     if (word := text.strip().lower()) in YAML_FLAGS:

@@ -215,10 +215,6 @@ def read_all(context: LaunchContext, parameters: Iterable[Any]) -> list[tuple[st
     """Return (node pattern, name, value) for each parameter in mappings and parameter files.
 
     The node pattern is "" for a parameter from a mapping.
-
-    Args:
-        context: State of the launch.
-        parameters: Result of `normalize_parameters`.
     """
     found: list[tuple[str, str, Any]] = []
     for one in parameters:
@@ -238,9 +234,7 @@ def read_all(context: LaunchContext, parameters: Iterable[Any]) -> list[tuple[st
 def _typed(text: str, kind: Any) -> Any:
     """Parse a text as a parameter's value.
 
-    Args:
-        text: The text.
-        kind: Type that the value must have; None for any type that a parameter can have.
+    If `kind` is None, the value may have any type that a parameter can have.
 
     Raises:
         ValueError: If the text is not a value of this type.

@@ -21,9 +21,7 @@ T = TypeVar("T")
 def parsed(text: Any, where: str) -> list[Any]:
     """Parse a text that may contain `$(…)` into a list of substitutions.
 
-    Args:
-        text: The text.
-        where: "file:line" for error texts.
+    `where` is "file:line" for error texts.
 
     Raises:
         InputError: If a `$(…)` is not closed or not known, or the text contains too many `$(…)`.
@@ -81,10 +79,7 @@ def _parse(text: str, start: int, where: str, *, closing: bool) -> tuple[list[An
 def _substitution(text: str, start: int, where: str) -> tuple[Any, int]:
     """Parse one `$(name argument argument)` in a text.
 
-    Args:
-        text: The whole text.
-        start: Index of the character after "$(".
-        where: "file:line" for error texts.
+    `start` is the index of the character after "$(" in the whole text.
 
     Returns:
         The substitution, and the index of the character after the closing bracket.

@@ -134,9 +134,7 @@ class Startable(Action):
     def warn_of_unused(self, context: LaunchContext, *names: str) -> None:
         """Log a warning if the launch file sets arguments that tftool ignores.
 
-        Args:
-            context: State of the launch.
-            names: Names of ignored arguments; the ignored argument `prefix` is always checked.
+        The ignored argument `prefix` is always checked, together with `names`.
         """
         given = [name for name in ("prefix", *names) if getattr(self, name)]
         if given:
@@ -148,10 +146,7 @@ class Startable(Action):
 def seconds_of(context: LaunchContext, value: Any, duration_name: str) -> float:
     """Return the duration in a launch file, in seconds.
 
-    Args:
-        context: State of the launch.
-        value: Number, text or substitutions.
-        duration_name: Name of the duration, for the error text.
+    The value is a number, a text or substitutions; `duration_name` is for the error text.
 
     Raises:
         UsageError: If the value is not a number of seconds.
@@ -251,9 +246,7 @@ class ExecuteProcess(Startable):
 def _plain_words(words: Sequence[str], shell: bool) -> list[str]:
     """Split a command line into words as a shell does; return [] if only a shell can execute it.
 
-    Args:
-        words: The command and its arguments.
-        shell: Whether a shell would execute the words, joined by spaces.
+    If `shell` is true, a shell would execute the words, joined by spaces.
     """
     if not shell and len(words) == 3 and words[1] == "-c" and Path(words[0]).name in SHELLS:
         words, shell = words[2:], True

@@ -53,10 +53,6 @@ def prefix_namespace(base_ns: str | None, ns: str | None) -> str | None:
 def namespace_in(context: LaunchContext, node_namespace: Any) -> str | None:
     """Return the absolute namespace of a node that is started in the current scope.
 
-    Args:
-        context: State of the launch, with the scope's settings.
-        node_namespace: Namespace of the node itself, or None.
-
     Returns:
         The namespace; None if neither the scope nor the node has one.
 
@@ -95,12 +91,7 @@ def normalize_remap_rules(remap_rules: Iterable[Any]) -> Iterable[tuple[Any, Any
 def remaps_in(
     context: LaunchContext, node_rules: Iterable[tuple[Any, Any]]
 ) -> list[tuple[str, str]]:
-    """Return the remapping rules of the current scope and then those of a node, as (old, new).
-
-    Args:
-        context: State of the launch.
-        node_rules: Remapping rules of the node itself.
-    """
+    """Return the remapping rules of the current scope and then those of a node, as (old, new)."""
     return [
         *_kept(context, _REMAPS),
         *((perform(context, old), perform(context, new)) for old, new in node_rules),

@@ -71,8 +71,7 @@ class LaunchService:
     def begin(self, *, keep_alive: bool = False) -> Launch:
         """Start the launch and return it at once.
 
-        Args:
-            keep_alive: Whether the launch continues after its last process has ended.
+        With `keep_alive`, the launch continues after its last process has ended.
         """
         self._owner = owner = program.current()
 

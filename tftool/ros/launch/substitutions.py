@@ -380,8 +380,7 @@ class ExecutableInPackage(Substitution):
 def _expanded(words: list[str]) -> str:
     """Return the output of a `xacro` command line, which tftool executes itself.
 
-    Args:
-        words: "xacro", the path of a file, and arguments `name:=value`.
+    The words are "xacro", the path of a file, and arguments `name:=value`.
 
     Raises:
         SubstitutionFailure: If the command line is not valid, or the file cannot be expanded.

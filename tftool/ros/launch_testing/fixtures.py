@@ -35,9 +35,7 @@ class LaunchedService(LaunchService):
     def start(self, description: LaunchDescription, *, keep_alive: bool) -> None:
         """Start a launch, and wait until the tests may start or the launch has ended.
 
-        Args:
-            description: Launch description.
-            keep_alive: Whether the launch continues after its last process has ended.
+        With `keep_alive`, the launch continues after its last process has ended.
 
         Raises:
             AssertionError: If the description has several ReadyToTest actions.
@@ -93,12 +91,7 @@ def service_fixture(scope: Any) -> Any:
 
 
 def _part_of_service(name: str, part: str) -> Callable[[Any], Any]:
-    """Return a function that takes a pytest scope and returns a fixture.
-
-    Args:
-        name: Name of the fixture.
-        part: Attribute of the fixture `launch_service` that is the new fixture's value.
-    """
+    """Return a function that takes a pytest scope and returns a fixture."""
 
     def make(scope: Any) -> Any:
         @pytest.fixture(scope=scope, name=name)
@@ -157,11 +150,7 @@ def fixture(
 def launched(name: str, options: tuple[bool, bool], service: LaunchedService, value: Any) -> None:
     """Start the launch whose description a launch_pytest fixture has returned.
 
-    Args:
-        name: Name of the fixture.
-        options: Values of `shutdown_when_idle` and `auto_shutdown`; see `fixture`.
-        service: Launch service that runs the launch.
-        value: Value that the fixture has returned.
+    `options` are the values of `shutdown_when_idle` and `auto_shutdown`; see `fixture`.
 
     Raises:
         AssertionError: If the value is not a launch description.
@@ -249,9 +238,7 @@ def is_generator(test: Any) -> bool:
 def _steps(generator: Any, loop: asyncio.AbstractEventLoop) -> Iterator[None]:
     """Advance a synchronous or asynchronous generator; yield after each of its steps.
 
-    Args:
-        generator: Generator of a test.
-        loop: Event loop that runs an asynchronous generator.
+    The event loop `loop` runs an asynchronous generator.
     """
     if inspect.isgenerator(generator):
         yield from generator

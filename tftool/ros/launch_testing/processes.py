@@ -29,9 +29,7 @@ def _wait_functions(
 ) -> tuple[Any, Any]:
     """Return a coroutine function that waits for a condition, and its synchronous version.
 
-    Args:
-        condition: Function that returns whether the wait is over.
-        at_timeout: Function called if the condition is still false at the timeout.
+    `at_timeout` is called if the condition is still false at the timeout.
     """
 
     async def wait(context: Any, action: Any, check: Any, timeout: float | None = None) -> bool:

@@ -71,8 +71,7 @@ class ProcInfoHandler(_Record):
     def __getitem__(self, key: Any) -> Any:
         """Return the newest event of a process.
 
-        Args:
-            key: Action that started the process, or a part of the process's name.
+        The key is the action that started the process, or a part of the process's name.
 
         Raises:
             KeyError: If there is no event.
@@ -121,8 +120,7 @@ class IoHandler(_Record):
     def __getitem__(self, key: Any) -> list[ProcessIO]:
         """Return the lines that a process has printed, as ProcessIO events.
 
-        Args:
-            key: Action that started the process, or the process's name.
+        The key is the action that started the process, or the process's name.
         """
         return [event for event in self if key in (event.action, event.process_name)]
 
@@ -240,12 +238,7 @@ def assertExitCodes(
 ) -> None:
     """Check the exit statuses of processes.
 
-    Args:
-        proc_info: Record of processes.
-        allowable_exit_codes: Exit statuses that pass the check.
-        process: Processes to check; None for all. See `resolveProcesses`.
-        cmd_args: See `resolveProcesses`.
-        strict_proc_matching: See `resolveProcesses`.
+    For the last three arguments see `resolveProcesses`; without `process`, all are checked.
 
     Raises:
         AssertionError: If an exit status is not allowed.
@@ -327,8 +320,7 @@ class SequentialTextChecker:
     def __init__(self, output: list[str]) -> None:
         """Prepare a search from the beginning of an output.
 
-        Args:
-            output: Lines of the output. A text that spans two lines is not found.
+        A text that spans two lines of the output is not found.
         """
         self._output = output
         self._piece = self._column = 0
@@ -445,12 +437,7 @@ def launch_process(
 ) -> Iterator[ProcessProxy]:
     """Run a process during the `with` block; yield a `ProcessProxy` for the process.
 
-    Args:
-        launch_service: Launch service that runs the process.
-        process_action: Action that starts the process.
-        proc_info: Record of processes.
-        proc_output: Record of output.
-        options: Further arguments of `ProcessProxy`.
+    `options` are further arguments of `ProcessProxy`.
     """
     launch_service.include_launch_description(LaunchDescription([process_action]))
     try:

@@ -131,8 +131,7 @@ class TestRun:
     ) -> tuple[LaunchDescription, dict[str, Any]]:
         """Return the launch description, and a mapping from argument names of tests to values.
 
-        Args:
-            ready_fn: Function to call when the tests may start.
+        `ready_fn` is called when the tests may start.
 
         Raises:
             UsageError: If the description has no ReadyToTest action.
@@ -166,9 +165,7 @@ class TestRun:
     def run(self, arguments: Mapping[str, str], preamble: Sequence[Any] = ()) -> TestResult:
         """Launch the description, run the tests, and return the tests' result.
 
-        Args:
-            arguments: Values of the launch arguments, by name.
-            preamble: Actions to execute before the description.
+        The actions in `preamble` are executed before the description.
         """
         ready = asyncio.Event()
         description, values = self.normalized_test_description(ready_fn=ready.set)
@@ -209,9 +206,7 @@ def wait_for_first(
 ) -> asyncio.Event | None:
     """Wait until one of several events is set; return that event, or None at the timeout.
 
-    Args:
-        events: Events of asyncio in the loop of tftool's world.
-        timeout: Longest wait in seconds; None for no limit.
+    The events belong to the loop of tftool's world; `timeout` is in seconds, None for no limit.
     """
     owner = program.current()
     end = None if timeout is None else owner.clock.now() + seconds(timeout)
@@ -354,10 +349,6 @@ def LoadTestsFromPythonModule(module: Any, *, name: str = "launch_tests") -> lis
 
 def run_tests(path: Path, arguments: Sequence[str]) -> None:
     """Run a file of launch tests inside the calling program.
-
-    Args:
-        path: Path of the file.
-        arguments: Launch arguments of the form `name:=value`.
 
     Raises:
         InputError: If the file cannot be read, or has no `generate_test_description`.

@@ -18,10 +18,7 @@ def without_escapes(text: str) -> str:
 def _in_order(first: Any, others: Sequence[Any], *, strict: bool) -> Callable[..., Span]:
     """Return a function that finds several items, one after the other, in an output.
 
-    Args:
-        first: Function that finds the first item, such as a result of `build_text_match`.
-        others: Functions that find the following items.
-        strict: Whether each item must begin where the previous item ends.
+    With `strict`, each item must begin where the previous item ends.
     """
 
     def match(actual: Any, start: int = 0) -> Span:

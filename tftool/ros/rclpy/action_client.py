@@ -151,9 +151,8 @@ class ActionClient(Requester):
     def watch(self, handle: ClientGoalHandle, goal: WorldGoal | None) -> Future:
         """Return a future of a goal's status and result.
 
-        Args:
-            handle: Handle whose status is set when the goal ends.
-            goal: The goal; None for a rejected goal, whose future never completes.
+        The handle's status is set when the goal ends. For a rejected goal, None, the future never
+        completes.
         """
 
         async def wait() -> _Result | None:

@@ -92,8 +92,7 @@ class ServerGoalHandle:
     def execute(self, execute_callback: Any = None) -> None:
         """Schedule the execution of the goal.
 
-        Args:
-            execute_callback: Function to call with this handle; None for the server's callback.
+        Without `execute_callback`, the server's callback is called with this handle.
         """
         self._executing = True
         self._server.execute(self, execute_callback)
@@ -150,12 +149,7 @@ class ActionServer(WorkQueue):
         state.keep(serve)
 
     def _show_parts(self, feedback_profile: QoSProfile, status_profile: QoSProfile) -> None:
-        """Offer the services and topics of ROS 2's action protocol, such as `_action/status`.
-
-        Args:
-            feedback_profile: Quality of service of the feedback topic.
-            status_profile: Quality of service of the status topic.
-        """
+        """Offer the services and topics of ROS 2's action protocol, such as `_action/status`."""
         state, made = self.node_state, self.type_.Impl
 
         def publisher(what: str, kind: Any, profile: QoSProfile) -> Publisher:
@@ -274,9 +268,7 @@ class ActionServer(WorkQueue):
     def execute(self, handle: ServerGoalHandle, callback: Any = None) -> None:
         """Schedule the execution of a goal on the node's executor.
 
-        Args:
-            handle: Handle of the goal.
-            callback: Function to call with the handle; None for the server's callback.
+        Without `callback`, the server's callback is called with the handle.
 
         Raises:
             TftoolError: If the node has no executor.

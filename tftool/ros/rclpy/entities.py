@@ -104,10 +104,6 @@ class Requester(WorkQueue):
         """Add the entity to the graph as a client of a service.
 
         Call this in the event loop's thread.
-
-        Args:
-            service: Full name of the service.
-            kind: Type of the service.
         """
         client = Endpoint(CLIENT, self.node_state.authority, service, kind)
         self._leave = self.node_state.world.clients.add(client)

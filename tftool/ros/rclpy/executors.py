@@ -429,11 +429,7 @@ class MultiThreadedExecutor(Executor):
 
 
 def get_global_executor(owner: "program.Program | None" = None) -> Executor:
-    """Return the executor that `spin` uses by default; create the executor at the first call.
-
-    Args:
-        owner: Program of the executor; None for the calling program.
-    """
+    """Return the executor that `spin` uses by default; create the executor at the first call."""
     owner = owner or program.current()
     if owner.executor is None:
         owner.executor = SingleThreadedExecutor()
@@ -458,10 +454,7 @@ def serving(executor: Any, node: Any) -> Iterator[None]:
 def wait_for(state: NodeState, future: Future, timeout_sec: float | None = None) -> Any:
     """Execute a node's callbacks until a future is done or the timeout passes.
 
-    Args:
-        state: tftool's state of the node.
-        future: Future to wait for.
-        timeout_sec: Longest wait in seconds; None for no limit.
+    `timeout_sec` is the longest wait in seconds; None for no limit.
 
     Returns:
         Result of the future; None if the future is not done in time.

@@ -110,8 +110,7 @@ class StateMachine:
     def take(self, transition: str | int) -> Transition:
         """Change to the state that a transition leads to; return the transition.
 
-        Args:
-            transition: Name or number of the transition.
+        The transition is a name or a number.
 
         Raises:
             RuntimeError: If the transition does not start in the current state.
@@ -214,9 +213,7 @@ def _notifying_method(callback: str) -> Any:
 def _trigger_method(transition: str, change_of_state: str) -> Any:
     """Return a method of lifecycle nodes such as `trigger_activate`, which runs a transition.
 
-    Args:
-        transition: Name of the transition, such as "activate".
-        change_of_state: Text for the method's docstring, such as "inactive to active".
+    The docstring of the method contains `change_of_state`, such as "inactive to active".
     """
 
     def trigger(self: "LifecycleNodeMixin") -> TransitionCallbackReturn:
@@ -290,9 +287,7 @@ class LifecycleNode(LifecycleNodeMixin, Node):
 def change(node: LifecycleNodeMixin, transition: str | int) -> TransitionCallbackReturn:
     """Run a lifecycle transition of a node; return the result of the transition's callback.
 
-    Args:
-        node: The node.
-        transition: Name or number of the transition.
+    The transition is a name or a number.
 
     Raises:
         RuntimeError: If the transition does not start in the node's current state.

@@ -59,11 +59,6 @@ def _stamp(msg: Any, allow_headerless: bool, logger_name: str) -> Time | None:
     """Return the stamp of a message.
 
     For a message without a header, return the present time, or log a warning and return None.
-
-    Args:
-        msg: The message.
-        allow_headerless: Whether to return the present time for a message without a header.
-        logger_name: Name of the logger for the warning.
     """
     if hasattr(msg, "header") and hasattr(msg.header, "stamp"):
         stamp = msg.header.stamp
@@ -154,10 +149,8 @@ class TimeSynchronizer(SimpleFilter):
     def add(self, msg: Any, my_queue: dict[int, Any], my_queue_index: int) -> None:
         """Store a message; call the registered callbacks for each complete set of equal stamps.
 
-        Args:
-            msg: Message of an input filter.
-            my_queue: Stored messages of that filter, by stamp.
-            my_queue_index: Index of that filter, from 0.
+        `my_queue` has the stored messages of the input filter with the index `my_queue_index`, by
+        stamp.
         """
         self._keep(Time.from_msg(msg.header.stamp).nanoseconds, msg, my_queue)
         for stamp in sorted(set.intersection(*(set(queue) for queue in self.queues))):

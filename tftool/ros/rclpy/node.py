@@ -226,12 +226,6 @@ class Node(NodeGraph, NodeParameters):
         """Return the QoS profile for a new publisher or subscription.
 
         With `options`, also declare parameters with which the user can change the profile.
-
-        Args:
-            entity_class: Class Publisher or Subscription.
-            full_name: Full name of the topic.
-            profile_or_depth: Profile, or depth of the default profile.
-            options: Policies that get parameters; None to declare no parameters.
         """
         profile = profile_of(profile_or_depth)
         if options is not None:
@@ -343,9 +337,7 @@ class Node(NodeGraph, NodeParameters):
         They are created when a service of the world is first looked up. If another node of the same
         name already offers a service, this service is not created.
 
-        Args:
-            services: Function that returns tuples (name below the node's name, type, handler).
-            callback_group: Callback group; None for the node's default group.
+        `services` returns tuples (name below the node's name, type, handler).
         """
         state = self._tftool
         group = callback_group or self._default_callback_group

@@ -274,10 +274,7 @@ def _endpoint_names(
 ) -> Iterator[tuple[str, str]]:
     """Yield (topic or service, type) for each publisher, subscription or client of a node.
 
-    Args:
-        node: Full name of the node; None for all nodes.
-        endpoints: Endpoints to search.
-        role: Role of the endpoints to yield, such as publisher.
+    If `node` is None, yield those of all nodes.
     """
     for name in endpoints.topics():
         for end in endpoints.of(name, role):
@@ -306,12 +303,7 @@ def _of_node(
 ) -> NamesAndTypes:
     """Return (name, types) of the topics, services or actions of one node.
 
-    Args:
-        state: tftool's state of the querying node.
-        name: Name of the other node.
-        namespace: Namespace of the other node.
-        find: Function that yields (name, type) for a node's full name.
-        args: Further arguments of `find`.
+    `find` yields (name, type) for a node's full name and the arguments `args`.
 
     Raises:
         NodeNameNonExistentError: If there is no such node.

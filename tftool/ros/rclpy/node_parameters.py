@@ -458,10 +458,7 @@ class NodeParameters:
 def _is_on_step(value: float, limits: Any) -> bool:
     """Return whether a value is allowed by the step of a range.
 
-    Args:
-        value: The value.
-        limits: Message with the range: `from_value`, `to_value` and `step`. Allowed values are
-            `from_value` plus a multiple of `step`, and `to_value`.
+    Allowed values are `from_value` plus a multiple of `step`, and `to_value`.
     """
     if not limits.step or value == limits.to_value:
         return True
@@ -486,10 +483,7 @@ def set_result(successful: bool, reason: str) -> Any:
 def _kind_and_value(name: str, declared: Any, descriptor: Any) -> tuple[Type, Any]:
     """Return the type and the default value of a parameter to declare.
 
-    Args:
-        name: Name of the parameter.
-        declared: Default value, or a type; the returned default value is None for a type.
-        descriptor: ParameterDescriptor message.
+    If a type is declared, the default value is None.
 
     Raises:
         ValueError: If `declared` is not possible with this descriptor.

@@ -178,9 +178,6 @@ class NodeState:
     def stored_messages(self, full_name: str) -> list[tuple[Any, Endpoint | None]]:
         """Return the stored messages that a new TRANSIENT_LOCAL subscription to a topic receives.
 
-        Args:
-            full_name: Full name of the topic.
-
         Returns:
             Tuples (message, publisher) for the publishers of this process; the publisher of static
             transforms is None.

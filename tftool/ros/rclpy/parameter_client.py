@@ -91,9 +91,7 @@ class AsyncParameterClient:
     def set_parameters(self, parameters: Sequence[Any], callback: Callback | None = None) -> Future:
         """Request to set parameters, which the other node accepts or rejects one by one.
 
-        Args:
-            parameters: Parameters, as `Parameter` objects or Parameter messages.
-            callback: Function to call with the future of the response.
+        The parameters are `Parameter` objects or Parameter messages.
         """
         return self._ask("SetParameters", callback, parameters=_messages(parameters))
 

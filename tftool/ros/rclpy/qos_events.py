@@ -157,14 +157,7 @@ class EndpointWatch(WorkQueue):
     """Work queue that calls the user's callbacks for events of one publisher or subscription."""
 
     def __init__(self, state: NodeState, group: Any, endpoint: Endpoint, callbacks: Any) -> None:
-        """Watch a publisher or subscription for events; call this in the event loop's thread.
-
-        Args:
-            state: tftool's state of the node.
-            group: Callback group of the callbacks.
-            endpoint: The publisher or subscription in the graph.
-            callbacks: The user's callbacks.
-        """
+        """Watch a publisher or subscription for events; call this in the event loop's thread."""
         super().__init__(state, group)
         self._endpoint = endpoint
         self._callbacks = callbacks

@@ -286,11 +286,7 @@ class RosoutPublisher(Publisher):
     ) -> None:
         """Publish a log message; call this in the event loop's thread.
 
-        Args:
-            level: Severity of the message.
-            logger: Name of the logger.
-            text: The message.
-            source_line: File, function and line number of the code that logs.
+        `source_line` is the file, function and line number of the code that logs.
         """
         file, function, line = source_line
         message = self.msg_type(

@@ -26,10 +26,7 @@ NAME = "_ros2cli"
 def body(words: Sequence[str], workspace: Workspace, show: Print) -> Callable[[], None]:
     """Return a function that runs the command line `ros2 WORDS` as a program.
 
-    Args:
-        words: Words after `ros2`.
-        workspace: Workspace in which packages are searched.
-        show: Function called with each line to print.
+    `show` is called with each line to print.
 
     Raises:
         UsageError: If there is no such command, or the command line names an unknown type.

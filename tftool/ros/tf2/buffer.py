@@ -394,22 +394,12 @@ class BufferCore:
     # Inserts
 
     def set_transform(self, transform: Any, authority: str) -> None:
-        """Insert a transform of `/tf`; log the reason if the buffer rejects the transform.
-
-        Args:
-            transform: TransformStamped message.
-            authority: Name of the sender.
-        """
+        """Insert a transform of `/tf`; log the reason if the buffer rejects the transform."""
         sample = values.pack_transform(transform)
         self._ask(lambda: self.frames.set_transform(sample, authority))
 
     def set_transform_static(self, transform: Any, authority: str) -> None:
-        """Insert a static transform; log the reason if the buffer rejects the transform.
-
-        Args:
-            transform: TransformStamped message.
-            authority: Name of the sender.
-        """
+        """Insert a static transform; log the reason if the buffer rejects the transform."""
         sample = values.pack_transform(transform)
         self._ask(lambda: self.frames.set_transform_static(sample, authority))
 

@@ -72,13 +72,7 @@ def dtype_from_fields(
 
 
 def points_array(cloud: Any, fields: Iterable[Any], data: bytes | bytearray) -> npt.NDArray[Any]:
-    """Return some fields of a cloud's points as a structured array of shape (height, width).
-
-    Args:
-        cloud: PointCloud2 message, which gives the shape.
-        fields: PointField messages of the fields.
-        data: Bytes of the points.
-    """
+    """Return some fields of a cloud's points as a structured array of shape (height, width)."""
     form = dtype_from_fields(fields, cloud.point_step, cloud.is_bigendian)
     steps = (cloud.row_step, cloud.point_step)
     return np.ndarray((cloud.height, cloud.width), form, data, 0, steps)

@@ -109,11 +109,7 @@ class BufferServer:
     ) -> None:
         """Start the action server.
 
-        Args:
-            buffer: Buffer with the transforms.
-            node: Node that serves the action.
-            ns: Name of the action.
-            check_period: Ignored, because tftool does not poll for transforms as ROS 2 does.
+        `check_period` is ignored, because tftool does not poll for transforms as ROS 2 does.
         """
         self.buffer = buffer
         self.node = node
