@@ -112,6 +112,29 @@ def test_a_nodes_timer_begins_anew_where_time_falls_back():
     assert node.ticks == [seconds(one) for one in (101, 102, 51, 52, 53)]
 
 
+def test_at_time_0_all_wait_for_the_first_time():
+    clock = FollowedClock(0)
+    node = Ticking(World(WallClock()))
+    node.clock = clock
+
+    async def main():
+        early = asyncio.ensure_future(clock.sleep_until(0))
+        living = asyncio.ensure_future(live(node.world))
+        await settled()
+        assert (clock.now(), early.done(), node.ticks) == (0, False, [])
+        for moment in (100, 101):
+            clock.tell(seconds(moment))
+            await settled()
+        assert early.done()
+        node.world.stop()
+        await living
+
+    run(WallClock(), main())
+
+    assert node.ticks == [seconds(100), seconds(101)]
+    assert [one.text for one in node.world.log.records] == []
+
+
 def test_people_wait_by_real_time_where_the_worlds_is_told():
     simulated = SimClock()
 
