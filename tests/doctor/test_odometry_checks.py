@@ -287,3 +287,18 @@ def test_a_topic_that_begins_with_a_jump_is_named(late):
     made.hears("/wheels", "odom", 20.0, "nav_msgs/Odometry", begin=4.0 - late, latency=0.005)
     told = "; the first message of /wheels arrived 20 ms before it"
     assert found(made, "teleport").evidence[0].endswith(told) is (late == 0.02)
+
+
+@pytest.mark.parametrize("later", [False, True])
+def test_a_localiser_does_not_jump_between_samples_of_one_stamp(later):
+    made = robot(odometry=False)
+    made.moving("odom", "base_link", pose=lambda t: (3.0 if t >= 4.0 else 0.0, 0.0, 0.0, *NO_TURN))
+    for tick in range(80):
+        far = 0.9 * (tick % 16 // 8)
+        made.sent("map", "odom", 0.1 * tick, (far if later else 0.0, 0.0, 0.0, *NO_TURN))
+        made.sent("map", "odom", 0.1 * tick, (far, 0.0, 0.0, *NO_TURN))
+    told = [one for one in made.judged().findings if one.id == "teleport"]
+    # A jump of the odometry is a finding of its own.
+    edges = sorted(one.edges for one in told)
+    assert edges == [(("map", "odom"),)] * later + [(("odom", "base_link"),)]
+    assert all(one.fixes[0].command != one.fixes[1].command for one in told)

@@ -122,6 +122,7 @@ def _jump(model: Model, track: Track, places: Places, limits: Limits) -> Hit | N
     if not moved[worst]:
         worst = int(jumps[np.argmax(turned[jumps])])
     is_odometry = last_part(track.parent).startswith("odom")
+    also = "; REP-105 wants this transform continuous" if is_odometry else ""
     usual = float(np.median(apart[later] / gaps[later]))
     far = metres(float(apart[worst])) if moved[worst] else f"{np.degrees(turned[worst]):.3g}°"
     within, told = int(stamps[worst + 1] - stamps[worst]), ""
@@ -149,13 +150,14 @@ def _jump(model: Model, track: Track, places: Places, limits: Limits) -> Hit | N
             "usual": f"{told}; usual {usual:.2g} m/s" if usual else told,
             "after": f"; each at most {span(after)} after a message of {topic}" if topic else first,
             "count": len(jumps),
-            "also": "; REP-105 wants this transform continuous" if is_odometry else "",
+            "also": also,
             "mixed": is_whole,
         },
         since=int(track.logs[others[jumps[0]]]),
         until=int(track.logs[others[jumps[-1]]]),
         count=len(jumps),
         severity=Severity.NOTE if model.is_minor(track) else None,
+        group=also,
         fixes=look_at(
             model, track.edge, int(track.stamps[some[worst]]), int(track.stamps[others[worst]])
         ),
@@ -195,9 +197,11 @@ def _corrections(model: Model, track: Track, limits: Limits) -> Hit | None:
 
     A first step that is also the largest step is the initial pose, and does not count.
     """
-    places = track.by_stamp
-    if len(places) < limits["samples"] or last_part(track.parent).startswith("odom"):
+    is_few = len(track.by_stamp) < max(limits["samples"], 1)
+    if is_few or last_part(track.parent).startswith("odom"):
         return None
+    # tf2 keeps the first of several samples with one stamp.
+    places = track.by_stamp[np.append(True, np.diff(track.sorted_stamps) > 0)]
     some, others = places[:-1], places[1:]
     robot, shown = np.zeros((len(others), 3)), track.edge
     # A step across a long pause, or from the stamps of one clock to those of another, is none.
@@ -224,7 +228,7 @@ def _corrections(model: Model, track: Track, limits: Limits) -> Hit | None:
     how = f"{limits['corrected']:g} m: its localiser corrects it again and again"
     also = "; the localiser may be lost"
     words = how, f", measured at {shown[1]}", also
-    return _repeated_jumps(model, track, steps, moved, words, shown)
+    return _repeated_jumps(model, track, places, (steps, moved), words, shown)
 
 
 def _poor_detections(model: Model, track: Track, limits: Limits) -> Hit | None:
@@ -240,14 +244,15 @@ def _poor_detections(model: Model, track: Track, limits: Limits) -> Hit | None:
     away = np.linalg.norm(track.translations[track.by_stamp], axis=1)
     after = f"; seen at {away.min():.3g} m to {metres(float(away.max()))}"
     words = f"{limits['detected']:g} m within 1 s", after, ""
-    return _repeated_jumps(model, track, steps, track.strides, words, track.edge)
+    every = track.by_stamp
+    return _repeated_jumps(model, track, every, (steps, track.strides), words, track.edge)
 
 
 def _repeated_jumps(
     model: Model,
     track: Track,
-    steps: Places,
-    moved: Floats,
+    places: Places,
+    jumps: tuple[Places, Floats],
     words: tuple[str, str, str],
     shown: Edge,
 ) -> Hit:
@@ -256,12 +261,13 @@ def _repeated_jumps(
     Args:
         model: Model of the evidence.
         track: The edge.
-        steps: Indices of the reported steps in `moved`, shape (m,).
-        moved: Lengths of all steps, sorted by stamp, metres, shape (n,).
+        places: Rows of the samples, sorted by stamp, shape (n + 1,).
+        jumps: Indices of the reported steps, shape (m,), and lengths of all steps, metres,
+            shape (n,).
         words: Clauses about the size of the steps, the longest step, and the consequence.
         shown: Target and source of the lookup that shows the steps.
     """
-    places = track.by_stamp
+    steps, moved = jumps
     worst = int(steps[moved[steps].argmax()])
     far = f"by up to {metres(float(moved[worst]))}"
     how = f", {len(steps)} times by more than {words[0]}"
@@ -284,6 +290,7 @@ def _repeated_jumps(
         since=int(track.logs[places[steps[0] + 1]]),
         until=int(track.logs[places[steps[-1] + 1]]),
         count=len(steps),
+        group=words[2],
         fixes=look_at(model, shown, *track.stamps[places[[worst, worst + 1]]].tolist()),
     )
 
