@@ -145,7 +145,7 @@ def test_a_program_may_launch_by_itself(ros_runtime, tmp_path, capfd):
     assert captured.out == "[INFO] [mine]: before\n"
 
 
-def test_the_loggers_of_launch_print_what_is_set(ros_runtime, tmp_path, capsys):
+def test_the_loggers_of_launch_say_and_write_what_is_set(ros_runtime, tmp_path, capsys):
     import launch.logging
     from launch.substitutions import LaunchLogDir
 
@@ -155,12 +155,17 @@ def test_the_loggers_of_launch_print_what_is_set(ros_runtime, tmp_path, capsys):
     config.level = "WARNING"
     logger = launch.logging.get_logger("outer.inner")
     assert launch.logging.get_logger("outer") is not logger
+    logger.addHandler(config.get_log_file_handler())
     logger.info("too little")
     logger.warning("once")
     config.set_screen_format("{message} of {name}")
+    config.set_log_format("{name}: {message}")
     logger.error("again")
 
     assert capsys.readouterr().out == "[WARNING] [outer.inner]: once\nagain of outer.inner\n"
+    first, second = (tmp_path / "launch.log").read_text().splitlines()
+    assert first.partition(" ")[2] == "[WARNING] [outer.inner]: once"
+    assert second == "outer.inner: again"
     assert LaunchLogDir().perform(launch.LaunchContext()) == str(tmp_path)
     with pytest.raises(ValueError, match="does not exist"):
         config.log_dir = str(tmp_path / "none")
@@ -170,24 +175,26 @@ def test_the_loggers_of_launch_print_what_is_set(ros_runtime, tmp_path, capsys):
     assert launch.logging.get_logger("outer").getEffectiveLevel() == config.level == 20
 
 
+@pytest.mark.parametrize("kind", ["SCREEN", "LOG"])
 def test_a_format_in_the_environment_is_taken_or_refused_with_its_name(
-    ros_runtime, monkeypatch, capsys
+    ros_runtime, monkeypatch, capsys, kind
 ):
     import launch.logging
 
-    name = "OVERRIDE_LAUNCH_SCREEN_FORMAT"
+    name = f"OVERRIDE_LAUNCH_{kind}_FORMAT"
     monkeypatch.setenv(name, "%(message)s")
     with pytest.raises(UsageError, match=rf"{name} must be .*, not '%\(message\)s'"):
         launch.logging.reset()
     monkeypatch.setenv(name, "said {message}")
     launch.logging.reset()
     launch.logging.get_logger("one").info("this")
-    assert capsys.readouterr().out == "said this\n"
+    said = {"SCREEN": "said this", "LOG": "[INFO] [one]: this"}[kind]
+    assert capsys.readouterr().out == f"{said}\n"
     monkeypatch.delenv(name)
     launch.logging.reset()
 
 
-def test_a_logger_of_launch_writes_by_a_handler_of_one_s_own(ros_runtime):
+def test_a_logger_of_launch_writes_by_a_handler_of_one_s_own(ros_runtime, tmp_path):
     import launch.logging
     import launch.logging.handlers
 
@@ -198,12 +205,17 @@ def test_a_logger_of_launch_writes_by_a_handler_of_one_s_own(ros_runtime):
             written.append(self.format(record))
 
     launch.logging.reset()
+    config = launch.logging.launch_config
+    config.log_dir = str(tmp_path)
+    config.log_handler_factory = lambda path, encoding=None: Kept()
+    config.set_log_format("{message}")
     logger = launch.logging.get_logger("kept")
-    logger.addHandler(Kept())
+    logger.addHandler(config.get_log_file_handler("own.log"))
     logger.info("this")
     launch.logging.reset()
 
     assert written == ["this"]
+    assert not (tmp_path / "own.log").exists()
 
 
 @pytest.mark.parametrize("way", ["default", "ROS_LOG_DIR", "ROS_HOME"])
@@ -392,6 +404,7 @@ def test_conditions_and_truths_are_those_of_ros():
 
         context = LaunchContext()
         assert not Condition().evaluate(context)
+        assert IfCondition("1").describe() == "IfCondition('1')"
         assert evaluate_condition_expression(context, "TRUE")
         with pytest.raises(InvalidConditionExpressionError, match="not 'typo'"):
             IfCondition("typo").evaluate(context)

@@ -12,13 +12,13 @@ from tftool.base.errors import NodeFailed
 from tftool.ros.host.importing import ros_free
 
 
-def evaluated(parameters):
+def evaluated(*parameters):
     """Return a node's parameters when the launch runs."""
     with ros_free():
         from launch import LaunchContext
-        from launch_ros.utilities import evaluate_parameter_dict, normalize_parameter_dict
+        from launch_ros.utilities import evaluate_parameters, normalize_parameters
 
-        return evaluate_parameter_dict(LaunchContext(), normalize_parameter_dict(parameters))
+        return evaluate_parameters(LaunchContext(), normalize_parameters(list(parameters)))
 
 
 def text(*parts):
@@ -42,13 +42,14 @@ def text(*parts):
     ],
 )  # fmt: skip
 def test_parameters_become_dotted_names_and_what_substitutions_give_is_read_as_yaml(given, there):
-    assert evaluated(given) == there
+    assert evaluated(given) == (there,)
 
 
-def test_whole_numbers_beside_others_become_floats():
-    numbers = evaluated({"n": [1, 2.5]})
+def test_whole_numbers_beside_others_become_floats_and_files_become_paths(tmp_path):
+    numbers, path = evaluated({"n": [1, 2.5]}, str(tmp_path / "a.yaml"))
 
     assert [type(one) for one in numbers["n"]] == [float, float]
+    assert path == tmp_path / "a.yaml"
 
 
 @pytest.mark.parametrize(
@@ -94,6 +95,25 @@ def test_a_value_of_a_given_type_is_of_it_from_the_beginning_or_refused():
             ParameterValue("1", value_type=int)
         with pytest.raises(ValueError, match="must be int, not 'x'"):
             ParameterValue(text("x"), value_type=int).evaluate(context)
+
+
+def test_a_parameter_file_with_substitutions_is_copied_without_them_and_cleaned_up(tmp_path):
+    file = tmp_path / "some.yaml"
+    file.write_text("$(var who):\n  ros__parameters: {a: 1}\n")
+    with ros_free():
+        from launch import LaunchContext
+        from launch_ros.descriptions import ParameterFile
+
+        context = LaunchContext()
+        context.launch_configurations["who"] = "talker"
+        described_file = ParameterFile(str(file), allow_substs=True)
+        copy = described_file.evaluate(context)
+
+        assert copy == described_file.param_file != file
+        assert copy.read_text() == "talker:\n  ros__parameters: {a: 1}\n"
+        described_file.cleanup()
+        assert not copy.exists()
+        assert ParameterFile(file).evaluate(context) == file
 
 
 def test_a_scope_is_kept_among_the_launch_configurations_and_ends_with_them():

@@ -126,6 +126,31 @@ def test_two_nodes_of_one_name_are_told_apart_with_a_warning(node, ros_runtime):
     assert ros_runtime.log() == before
 
 
+def test_handles_of_a_destroyed_node_and_of_its_entities_are_invalid(node):
+    from rclpy.exceptions import InvalidHandle
+    from std_msgs.msg import String
+    from std_srvs.srv import Trigger
+
+    each = [
+        node.create_publisher(String, "said", 1),
+        node.create_subscription(String, "said", print, 1),
+        node.create_client(Trigger, "asked"),
+        node.create_service(Trigger, "asked", print),
+        node.create_timer(1.0, print),
+    ]
+    for one in each:
+        with one.handle:
+            pass
+        one.destroy()
+        with pytest.raises(InvalidHandle, match="of 'probe' is destroyed"):
+            one.handle.__enter__()
+    with node.handle:
+        assert node.get_name() == "probe"
+    node.destroy_node()
+    with pytest.raises(InvalidHandle, match="'probe' is destroyed"):
+        node.handle.__enter__()
+
+
 def test_a_node_of_another_process_of_the_same_name_is_warned_of(ros_runtime):
     import rclpy
 
@@ -184,9 +209,15 @@ def test_destroying_a_node_silences_it(node, ros_runtime):
 
 
 def test_arguments_without_those_of_ros_can_be_had(ros_runtime):
-    from rclpy.utilities import get_rmw_implementation_identifier, remove_ros_args
+    from rclpy.utilities import (
+        get_rmw_implementation_identifier,
+        remove_ros_args,
+        timeout_sec_to_nsec,
+    )
 
     assert remove_ros_args(["a", "--ros-args", "-r", "x:=y"]) == ["a"]
+    assert timeout_sec_to_nsec(1.5) == 1_500_000_000
+    assert timeout_sec_to_nsec(None) == -1
     assert get_rmw_implementation_identifier() == "tftool"
 
 

@@ -76,6 +76,7 @@ def test_a_name_with_a_strange_character_is_refused_in_the_words_of_ros(node):
 
 def test_a_topics_end_may_be_described_bit_by_bit(node):
     from rclpy.topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
+    from rclpy.type_hash import TypeHash
 
     info = TopicEndpointInfo(node_name="talker")
     info.endpoint_type = TopicEndpointTypeEnum.PUBLISHER
@@ -87,6 +88,8 @@ def test_a_topics_end_may_be_described_bit_by_bit(node):
     assert told[0] == "Node name: talker"
     assert "Endpoint type: PUBLISHER" in told
     assert "  Reliability: UNKNOWN" in told
+    assert str(TypeHash()) == "INVALID"
+    assert str(TypeHash(version=1, value=b"\xab" * 32)) == "RIHS01_" + "ab" * 32
 
 
 def test_a_clock_of_ros_time_is_a_ros_clock_and_no_ended_context_sleeps(node):
@@ -385,6 +388,10 @@ def test_a_parameter_without_a_value_is_answered_with_no_values(node):
 
 def test_what_is_no_text_is_no_argument(ros_runtime):
     import rclpy
+    from rclpy.signals import SignalHandlerOptions, get_current_signal_handlers_options
 
     with pytest.raises(UnicodeEncodeError):
         rclpy.init(args=["node.py", "Ragnar\udcc3k"])
+    assert get_current_signal_handlers_options() == SignalHandlerOptions.NO
+    rclpy.init()
+    assert get_current_signal_handlers_options() == SignalHandlerOptions.ALL

@@ -59,6 +59,7 @@ rclpy.time_source: rclpy.time_source: TimeSource CLOCK_TOPIC USE_SIM_TIME_NAME
 rclpy.type_support: rclpy.node: check_for_type_support check_is_valid_msg_type
     check_is_valid_srv_type
 rclpy.type_description_service: rclpy.services: START_TYPE_DESCRIPTION_SERVICE_PARAM
+rclpy.type_hash: rclpy.node_graph: TypeHash
 rclpy.topic_endpoint_info: rclpy.node_graph: TopicEndpointInfo TopicEndpointTypeEnum
 rclpy.wait_for_message: rclpy.executors: wait_for_message
 rclpy.client: rclpy.services: Client
@@ -73,7 +74,7 @@ rclpy.callback_groups: rclpy.entities: CallbackGroup MutuallyExclusiveCallbackGr
 rclpy.logging: rclpy.logging: get_logger set_logger_level initialize shutdown clear_config
     get_logging_directory _root_logger get_logger_effective_level get_logging_severity_from_string
 rclpy.logging rclpy.impl.logging_severity: rclpy.logging: LoggingSeverity
-rclpy.impl.rcutils_logger: rclpy.logging: RcutilsLogger
+rclpy.impl.rcutils_logger: rclpy.logging: RcutilsLogger SkipFirst
 rclpy.parameter: rclpy.parameter: parameter_value_to_python get_parameter_value
     parameter_dict_from_yaml_file PARAMETER_SEPARATOR_STRING
 rclpy.parameter_client: rclpy.parameter_client: AsyncParameterClient
@@ -102,7 +103,8 @@ rclpy.lifecycle rclpy.lifecycle.managed_entity: rclpy.lifecycle: ManagedEntity S
 rclpy.lifecycle: rclpy.lifecycle: Node=LifecycleNode State=LifecycleState
     Publisher=LifecyclePublisher NodeMixin=LifecycleNodeMixin
 rclpy.serialization: rclpy.topics: serialize_message deserialize_message
-rclpy.utilities: rclpy.context: remove_ros_args
+rclpy.signals: rclpy.context: get_current_signal_handlers_options
+rclpy.utilities: rclpy.context: remove_ros_args timeout_sec_to_nsec
 rclpy.expand_topic_name: rclpy.validation: expand_topic_name
 rclpy.topic_or_service_is_hidden: rclpy.validation: topic_or_service_is_hidden HIDDEN_TOPIC_PREFIX
 rclpy.validate_full_topic_name: rclpy.validation: validate_full_topic_name
@@ -170,7 +172,7 @@ launch.events.process: launch.events: ProcessExited ProcessStarted ProcessIO Shu
     SignalProcess RunningProcessEvent
 launch.frontend launch.frontend.parser: launch.frontend: Parser
 launch.frontend launch.frontend.expose: launch.parsing: expose_substitution
-launch.frontend.parse_substitution: launch.parsing: parse_substitution
+launch.frontend.parse_substitution: launch.parsing: parse_substitution parse_if_substitutions
 launch.launch_description_sources: launch.description: PythonLaunchDescriptionSource
     AnyLaunchDescriptionSource FrontendLaunchDescriptionSource
 launch.substitutions: launch.substitutions: TextSubstitution LaunchConfiguration<$var>
@@ -183,8 +185,16 @@ launch.substitutions: launch.logic: EqualsSubstitution<$equals> NotEqualsSubstit
     IfElseSubstitution<$if>
 launch.substitutions launch.substitutions.boolean_substitution: launch.logic: AndSubstitution<$and>
     OrSubstitution<$or> NotSubstitution<$not> AnySubstitution<$any> AllSubstitution<$all>
-launch.utilities: launch.substitutions: normalize_to_list_of_substitutions perform_substitutions
+launch.utilities launch.utilities.perform_substitutions_impl: launch.utilities:
+    perform_substitutions
+launch.utilities launch.utilities.normalize_to_list_of_substitutions_impl: launch.utilities:
+    normalize_to_list_of_substitutions
+launch.utilities launch.utilities.normalize_to_list_of_entities_impl: launch.utilities:
+    normalize_to_list_of_entities
 launch launch.some_entities_type: launch.description: SomeEntitiesType
+launch.utilities launch.utilities.ensure_argument_type_impl: launch.utilities: ensure_argument_type
+launch.utilities launch.utilities.class_tools_impl: launch.utilities: is_a is_a_subclass
+    isclassinstance
 launch_xml.launch_description_sources: launch.description: XMLLaunchDescriptionSource
 launch_yaml.launch_description_sources: launch.description: YAMLLaunchDescriptionSource
 launch_ros.actions: launch.nodes: Node<node>
@@ -219,16 +229,17 @@ launch_ros.utilities launch_ros.utilities.track_node_names: launch.scope: add_no
 launch_ros.utilities launch_ros.utilities.normalize_parameters: launch.parameters:
     normalize_parameters normalize_parameter_dict
 launch_ros.utilities launch_ros.utilities.evaluate_parameters: launch.parameters:
-    evaluate_parameter_dict
+    evaluate_parameters evaluate_parameter_dict
 launch_testing: launch_testing.description: parametrize ready_to_test_action_timeout
 launch_testing launch_testing.decorator: launch_testing.description: post_shutdown_test
+launch_testing launch_testing.ready_aggregator: launch_testing.description: ReadyAggregator
 launch_testing launch_testing.io_handler: launch_testing.records: ActiveIoHandler IoHandler
 launch_testing launch_testing.proc_info_handler: launch_testing.records: ActiveProcInfoHandler
     ProcInfoHandler
 launch_testing.actions launch_pytest.actions: launch_testing.description: ReadyToTest
 launch_testing.actions: launch_testing.description: Test GTest PyTest
 launch_testing.asserts: launch_testing.records: assertExitCodes assertInStream assertInStdout
-    assertInStderr assertSequentialStdout SequentialTextChecker EXIT_OK
+    assertInStderr assertDefaultStream assertSequentialStdout SequentialTextChecker EXIT_OK
     EXIT_SIGINT EXIT_SIGQUIT EXIT_SIGKILL EXIT_SIGSEGV
 launch_testing.asserts launch_testing.util: launch_testing.records: NO_CMD_ARGS
 launch_testing.event_handlers: launch_testing.description: StdoutReadyListener
@@ -240,12 +251,18 @@ launch_testing.test_runner launch_testing_ros launch_testing_ros.test_runner: la
     LaunchTestRunner
 launch_testing.tools launch_testing.tools.process: launch_testing.records: ProcessProxy
     launch_process
+launch_testing.tools launch_testing.tools.output launch_testing_ros.tools
+    launch_testing_ros.tools.output: launch_testing.text: basic_output_filter
 launch_testing.tools launch_testing.tools.output: launch_testing.text: expect_output
+    expected_output_from_file
+launch_testing.tools.output: launch_testing.text: get_default_filtered_prefixes
+    get_default_filtered_patterns
 launch_testing.tools.text: launch_testing.text: build_line_match build_text_match
 launch_testing.util: launch_testing.description: KeepAliveProc
 launch_testing.util: launch_testing.records: resolveProcesses NoMatchingProcessException
 launch_testing_ros launch_testing_ros.wait_for_topics: launch_testing.topics: WaitForTopics
 launch_testing_ros launch_testing_ros.message_pump: launch_testing.topics: MessagePump
+launch_testing_ros launch_testing_ros.data_republisher: launch_testing.topics: DataRepublisher
 launch_pytest: launch_testing.fixtures: fixture
 launch_pytest.tools launch_pytest.tools.process: launch_testing.processes: *
 rosidl_runtime_py rosidl_runtime_py.convert: host.rosidl_runtime: message_to_csv

@@ -5,7 +5,7 @@ from typing import Any
 
 from tftool.base.errors import UsageError
 from tftool.ros.launch.context import LaunchContext
-from tftool.ros.launch.substitutions import is_true, perform
+from tftool.ros.launch.substitutions import describe, is_true, perform
 
 
 class InvalidConditionExpressionError(UsageError):
@@ -21,6 +21,10 @@ class Condition:
     def evaluate(self, context: LaunchContext) -> bool:
         """Return whether the condition is true in a launch context."""
         return self._predicate is not None and self._predicate(context)
+
+    def describe(self) -> str:
+        """Return the condition as text."""
+        return f"{type(self).__name__}()"
 
 
 def evaluate_condition_expression(context: LaunchContext, expression: Any) -> bool:
@@ -45,6 +49,11 @@ class _TextCondition(Condition):
                 evaluate_condition_expression(context, predicate_expression) is self.wanted
             )
         )
+        self._expression = predicate_expression
+
+    def describe(self) -> str:
+        """Return the condition as text, such as "IfCondition('expression')"."""
+        return f"{type(self).__name__}({describe(self._expression)})"
 
 
 class IfCondition(_TextCondition):

@@ -23,6 +23,10 @@ class LaunchDescriptionEntity:
         """Execute this action or description; return the actions to execute next."""
         return None
 
+    def describe(self) -> str:
+        """Return this action or description as text."""
+        raise NotImplementedError
+
     def describe_sub_entities(self) -> Sequence[Any]:
         """Return the inner actions, which the launch searches for declared arguments."""
         return []
@@ -30,6 +34,10 @@ class LaunchDescriptionEntity:
     def describe_conditional_sub_entities(self) -> Sequence[tuple[str, Sequence[Any]]]:
         """Return (condition as text, actions) for the inner actions that depend on a condition."""
         return []
+
+    def get_asyncio_future(self) -> Any:
+        """Return a future that is done when the action ends; None if the action ends at once."""
+        return None
 
 
 class LaunchDescription(LaunchDescriptionEntity):
@@ -45,6 +53,15 @@ class LaunchDescription(LaunchDescriptionEntity):
     ) -> None:
         self.entities: list[Any] = list(initial_entities or ())
         self.deprecated_reason = deprecated_reason
+
+    @property
+    def deprecated(self) -> bool:
+        """Whether the description is deprecated, that is, has a `deprecated_reason`."""
+        return self.deprecated_reason is not None
+
+    def describe(self) -> str:
+        """Return the description as text."""
+        return f"{type(self).__name__}()"
 
     def describe_sub_entities(self) -> Sequence[Any]:
         """Return the actions of the description."""
@@ -134,3 +151,7 @@ class Action(LaunchDescriptionEntity):
     def execute(self, context: LaunchContext) -> Any:
         """Execute the action; return the actions to execute next, or None."""
         return None
+
+    def describe(self) -> str:
+        """Return the action as text."""
+        return f"{type(self).__name__}()"

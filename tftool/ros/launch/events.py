@@ -116,6 +116,11 @@ class SignalProcess(ShutdownProcess):
         is_name = isinstance(signal_number, str)
         self.signal = signal.Signals[signal_number] if is_name else signal.Signals(signal_number)
 
+    @property
+    def signal_name(self) -> str:
+        """Name of the signal, such as "SIGINT"."""
+        return self.signal.name
+
 
 def matches_action(target_action: Any) -> Callable[[Any], bool]:
     """Return a function that returns whether its argument is `target_action`."""

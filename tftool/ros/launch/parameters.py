@@ -1,20 +1,18 @@
 """Parameters of nodes in launch files: typed values, mappings and parameter files."""
 
 import os
+import tempfile
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, get_args
 
 from tftool.base.errors import UsageError
+from tftool.base.named_files import read_named_text
 from tftool.ros.host import parameter_files
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.parsing import parsed
-from tftool.ros.launch.substitutions import (
-    Substitution,
-    is_true,
-    normalize_to_list_of_substitutions,
-    perform,
-)
+from tftool.ros.launch.substitutions import Substitution, is_true, perform
+from tftool.ros.launch.utilities import normalize_to_list_of_substitutions
 
 _SINGLE = (str, int, float, bool)
 
@@ -88,14 +86,15 @@ class ParameterFile:
     """Parameter file of a launch file.
 
     Attributes:
-        param_file: Path of the file, or substitutions for the path.
+        param_file: Path of the file; substitutions for the path until `evaluate` is called.
         allow_substs: Whether to replace the substitutions, `$(…)`, in the file's text.
     """
 
     def __init__(self, param_file: Any, *, allow_substs: Any = False) -> None:
-        is_path = isinstance(param_file, os.PathLike)
-        self.param_file: Any = param_file if is_path else _parts_of(param_file)
+        self._given = param_file if isinstance(param_file, os.PathLike) else _parts_of(param_file)
+        self.param_file: Any = self._given
         self.allow_substs = allow_substs
+        self._made: Path | None = None
 
     def read(self, context: LaunchContext) -> list[tuple[str, str, Any]]:
         """Read the file; return a tuple (node pattern, name, value) for each parameter.
@@ -105,7 +104,7 @@ class ParameterFile:
         Raises:
             InputError: If the file cannot be read, or is not a parameter file.
         """
-        path = Path(perform(context, self.param_file))
+        path = Path(perform(context, self._given))
         if not is_true(perform(context, self.allow_substs)):
             if not path.is_file() and context.launch is not None:
                 context.launch.warn(f"Parameter file path is not a file: {path}")
@@ -114,6 +113,30 @@ class ParameterFile:
         return parameter_files.read_parameters(
             path, lambda text: perform(context, parsed(text, str(path)))
         )
+
+    def evaluate(self, context: LaunchContext) -> Path:
+        """Return the path of the file.
+
+        With `allow_substs`, return the path of a new copy in which every `$(…)` is replaced.
+
+        Raises:
+            InputError: If a `$(…)` is unknown.
+        """
+        path = Path(perform(context, self._given))
+        if is_true(perform(context, self.allow_substs)):
+            text = perform(context, parsed(read_named_text(path), str(path)))
+            handle, made = tempfile.mkstemp(prefix="parameters-", suffix=".yaml")
+            with open(handle, "w", encoding="utf-8") as file:
+                file.write(text)
+            self._made = path = Path(made)
+        self.param_file = path
+        return path
+
+    def cleanup(self) -> None:
+        """Delete the copy of the file if `evaluate` has made one."""
+        if self._made is not None:
+            self._made.unlink(missing_ok=True)
+            self._made, self.param_file = None, self._given
 
 
 def normalize_parameters(parameters: Any) -> list[Any]:
@@ -174,6 +197,27 @@ def _normalized(value: Any) -> Any:
     if len(kinds - {tuple}) > 1:
         raise TypeError(_not_uniform(value))
     return found
+
+
+def evaluate_parameters(context: LaunchContext, parameters: Iterable[Any]) -> tuple[Any, ...]:
+    """Evaluate the substitutions in a result of `normalize_parameters`.
+
+    Returns:
+        A mapping from name to value for each mapping, and the path of each parameter file.
+
+    Raises:
+        TypeError: If a resulting value has a type that its parameter cannot have.
+    """
+    found: list[Any] = []
+    for one in parameters:
+        if isinstance(one, ParameterFile):
+            found.append(one.evaluate(context))
+        elif isinstance(one, Mapping):
+            found.append(evaluate_parameter_dict(context, one))
+        else:
+            one.evaluate(context)
+            found.append(one)
+    return tuple(found)
 
 
 def evaluate_parameter_dict(

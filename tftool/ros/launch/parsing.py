@@ -156,6 +156,16 @@ def parse_substitution(value: Any) -> list[Any]:
     return parsed(value, "a text") or [TextSubstitution(text="")]
 
 
+def parse_if_substitutions(value: Any) -> Any:
+    """Parse a text that contains `$(` into a list of substitutions; return other values unchanged.
+
+    In a list, each text is parsed separately.
+    """
+    if isinstance(value, list):
+        return [parse_if_substitutions(one) for one in value]
+    return parse_substitution(value) if isinstance(value, str) and "$(" in value else value
+
+
 def expose_substitution(name: str) -> Callable[[T], T]:
     """Return a decorator that registers a class or function as the parser of `$(name …)`."""
 

@@ -449,31 +449,3 @@ class Command(Substitution):
             if context.launch is not None:
                 context.launch.warn(sentence)
         return done.stdout
-
-
-def perform_substitutions(context: LaunchContext, subs: Iterable[Substitution]) -> str:
-    """Return the joined texts of several substitutions."""
-    return "".join(context.perform_substitution(one) for one in subs)
-
-
-def normalize_to_list_of_substitutions(subs: Any) -> list[Substitution]:
-    """Convert a text, a substitution, or a list of texts and substitutions to substitutions.
-
-    Raises:
-        TypeError: If an item is neither a text nor a substitution.
-    """
-    if isinstance(subs, str):
-        return [TextSubstitution(text=subs)]
-    if isinstance(subs, Substitution):
-        return [subs]
-    if not isinstance(subs, Iterable):
-        raise TypeError(f"expected a text, a substitution or a list of these, not {subs!r}")
-    return [_one(sub) for sub in subs]
-
-
-def _one(sub: Any) -> Substitution:
-    if isinstance(sub, Substitution):
-        return sub
-    if not isinstance(sub, str):
-        raise TypeError(f"expected a text or a substitution, not {sub!r}")
-    return TextSubstitution(text=sub)

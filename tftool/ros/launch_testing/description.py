@@ -129,6 +129,19 @@ class StdoutReadyListener(OnProcessIO):
         self.entities = list(actions)
 
 
+class ReadyAggregator:
+    """Counter that calls a function after `num_to_aggregate` calls of its method `ready_fn`."""
+
+    def __init__(self, ready_fn: Callable[[], object], num_to_aggregate: int) -> None:
+        self._ready, self._left = ready_fn, num_to_aggregate
+
+    def ready_fn(self) -> None:
+        """Count this call; after the last expected call, call the function given to `__init__`."""
+        self._left -= 1
+        if self._left == 0:
+            self._ready()
+
+
 def post_shutdown_test() -> Callable[[type], type]:
     """Return a decorator for a test class whose tests run after the end of the launch."""
 

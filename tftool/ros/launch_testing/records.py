@@ -314,6 +314,11 @@ def assertInStderr(
     assertInStream(proc_output, expected_output, process, cmd_args, **options, stream="stderr")
 
 
+def assertDefaultStream() -> str:
+    """Return the name of the stream that `assertInStream` checks by default, "stderr"."""
+    return "stderr"
+
+
 class SequentialTextChecker:
     """Checker that finds texts in an output, each after the text found before."""
 

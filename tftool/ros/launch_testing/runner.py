@@ -147,6 +147,10 @@ class TestRun:
         ready.callbacks.append(ready_fn)
         return description, values
 
+    def get_launch_description(self) -> LaunchDescription:
+        """Return only the launch description, for callers that run no tests."""
+        return self.normalized_test_description(ready_fn=lambda: None)[0]
+
     def check(self) -> None:
         """Check that `generate_test_description` has exactly the arguments of `parametrize`.
 

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
 from typing import Any
 
 Span = tuple[int, int] | None
@@ -142,3 +143,53 @@ def expect_output(
     if expected_text is not None:
         return build_text_match(expected_text, strict=strict)(whole) is not None
     return build_line_match(expected_lines, strict=strict)(whole.splitlines()) is not None
+
+
+def expected_output_from_file(path: str, encoding: str | None = None) -> list[Any]:
+    """Return expected lines: texts from the file `path`.txt, or patterns from `path`.regex.
+
+    Raises:
+        RuntimeError: If neither file exists.
+    """
+    for suffix, read in ((".txt", str), (".regex", re.compile)):
+        file = Path(f"{path}{suffix}")
+        if file.is_file():
+            return [read(line) for line in file.read_text(encoding=encoding).splitlines()]
+    raise RuntimeError(f"there is neither '{path}.txt' nor '{path}.regex'")
+
+
+def basic_output_filter(
+    filtered_prefixes: Sequence[str] | None = None,
+    filtered_patterns: Sequence[str] | None = None,
+    filtered_rmw_implementation: str | None = None,
+) -> Callable[[str], str]:
+    """Return a function that removes lines that begin with a prefix or match a pattern.
+
+    Args:
+        filtered_prefixes: Prefixes of the lines to remove; by default "pid" and "rc".
+        filtered_patterns: Regular expressions, matched at the start of a line; by default none.
+        filtered_rmw_implementation: Ignored, because tftool prints no lines of a middleware.
+    """
+    prefixes = tuple(get_default_filtered_prefixes() if filtered_prefixes is None
+                     else filtered_prefixes)  # fmt: skip
+    patterns = [re.compile(one) for one in filtered_patterns or ()]
+
+    def kept(output: str) -> str:
+        lines = output.splitlines(keepends=True)
+        return "".join(
+            line
+            for line in lines
+            if not line.startswith(prefixes) and not any(one.match(line) for one in patterns)
+        )
+
+    return kept
+
+
+def get_default_filtered_prefixes() -> list[str]:
+    """Return the default of `filtered_prefixes` in `basic_output_filter`."""
+    return ["pid", "rc"]
+
+
+def get_default_filtered_patterns() -> list[str]:
+    """Return the default of `filtered_patterns` in `basic_output_filter`, an empty list."""
+    return []

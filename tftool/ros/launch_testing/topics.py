@@ -3,7 +3,7 @@
 import random
 import string
 from collections import deque
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from functools import partial
 from typing import Any
 
@@ -116,3 +116,53 @@ class WaitForTopics:
 
     def __exit__(self, *error: object) -> None:
         self.shutdown()
+
+
+class DataRepublisher:
+    """Helper that changes each message on a topic and publishes the result on another topic."""
+
+    def __init__(
+        self,
+        node: Any,
+        listen_topic: str,
+        publish_topic: str,
+        msg_type: Any,
+        transform_fn: Callable[[Any], Any],
+    ) -> None:
+        """Create the subscription and the publisher.
+
+        Args:
+            node: Node that owns the subscription and the publisher.
+            listen_topic: Topic to receive from.
+            publish_topic: Topic to publish on.
+            msg_type: Message type of both topics.
+            transform_fn: Function that returns the changed message, or None to publish nothing.
+        """
+        self._node, self._change = node, transform_fn
+        self._received = 0
+        self._republished: list[Any] = []
+        self._publisher = node.create_publisher(msg_type, publish_topic, 10)
+        self._subscription = node.create_subscription(msg_type, listen_topic, self._take, 10)
+
+    def _take(self, message: Any) -> None:
+        self._received += 1
+        if changed := self._change(message):
+            self._republished.append(message)
+            self._publisher.publish(changed)
+
+    def shutdown(self) -> None:
+        """Destroy the subscription and the publisher."""
+        self._node.destroy_subscription(self._subscription)
+        self._node.destroy_publisher(self._publisher)
+
+    def get_num_received(self) -> int:
+        """Return the number of received messages."""
+        return self._received
+
+    def get_num_republished(self) -> int:
+        """Return the number of published messages."""
+        return len(self._republished)
+
+    def get_republished(self) -> list[Any]:
+        """Return the received messages whose changed copies were published."""
+        return self._republished

@@ -181,9 +181,21 @@ class SignalHandlerOptions(IntEnum):
     SIGTERM = 3
 
 
+def get_current_signal_handlers_options() -> SignalHandlerOptions:
+    """Return ALL while the default context is initialised, otherwise NO."""
+    return SignalHandlerOptions.ALL if ok() else SignalHandlerOptions.NO
+
+
 def remove_ros_args(args: Sequence[str] | None = None) -> list[str]:
     """Return a command line, by default `sys.argv`, without the parts after `--ros-args`."""
     return names.parse(list(sys.argv if args is None else args))[1]
+
+
+def timeout_sec_to_nsec(timeout_sec: float | None) -> int:
+    """Convert a timeout from seconds to nanoseconds; return -1 for None or a negative timeout."""
+    if timeout_sec is None or timeout_sec < 0:
+        return -1
+    return int(float(timeout_sec) * 1e9)
 
 
 def get_rmw_implementation_identifier() -> str:

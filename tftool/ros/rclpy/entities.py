@@ -7,7 +7,8 @@ work until an executor takes it.
 import asyncio
 import inspect
 from collections import deque
-from collections.abc import Callable, Coroutine
+from collections.abc import Callable, Coroutine, Iterator
+from contextlib import AbstractContextManager, contextmanager
 from functools import partial
 from typing import Any, Final, Self
 
@@ -25,6 +26,13 @@ Work = Callable[[], Any]
 
 MOST_WAITING: Final = 1000
 """Largest number of queued requests or goals; further requests and goals are refused."""
+
+
+@contextmanager
+def required(require: Callable[[], object]) -> Iterator[None]:
+    """Call `require`, which raises an error for a destroyed entity; then run the `with` block."""
+    require()
+    yield
 
 
 class NodeEntity:
@@ -54,6 +62,11 @@ class NodeEntity:
     def destroy(self) -> None:
         """Close the entity, and remove it from the node."""
         self.node_state.forget(self)
+
+    @property
+    def handle(self) -> AbstractContextManager[None]:
+        """Context manager that raises InvalidHandle if the entity was destroyed."""
+        return required(lambda: self.node_state.require_of(self))
 
     def __enter__(self) -> Self:
         return self

@@ -29,6 +29,10 @@ class LoggingSeverity(IntEnum):
 _LEVELS: dict[int, Level] = {10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 50: "FATAL"}
 
 
+class SkipFirst:
+    """Placeholder for rclpy's implementation of `skip_first=True`; the class has no effect."""
+
+
 class RcutilsLogger:
     """Named logger, which drops messages less severe than the logger's level."""
 

@@ -3,6 +3,7 @@
 import copy
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import AbstractContextManager
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -17,6 +18,7 @@ from tftool.ros.rclpy.entities import (
     NodeEntity,
     RateTimer,
     Timer,
+    required,
 )
 from tftool.ros.rclpy.exceptions import NotInitializedException, NoTypeSupportImportedException
 from tftool.ros.rclpy.logging import LoggingSeverity, RcutilsLogger, logger_services
@@ -154,6 +156,11 @@ class Node(NodeGraph, NodeParameters):
     def default_callback_group(self) -> CallbackGroup:
         """Callback group of timers, subscriptions and the like that were given no group."""
         return self._default_callback_group
+
+    @property
+    def handle(self) -> AbstractContextManager[None]:
+        """Context manager that raises InvalidHandle if the node was destroyed."""
+        return required(self._tftool.require)
 
     def __enter__(self) -> "Node":
         return self

@@ -23,6 +23,24 @@ class TopicEndpointTypeEnum(IntEnum):
     SUBSCRIPTION = 2
 
 
+@dataclass(frozen=True, slots=True)
+class TypeHash:
+    """Hash of the definition of a message type.
+
+    Attributes:
+        version: Version of the hash algorithm, 1; -1 without a hash.
+        value: The 32 bytes of the hash.
+    """
+
+    version: int = -1
+    value: bytes = bytes(32)
+
+    def __str__(self) -> str:
+        if self.version <= 0 or len(self.value) != 32:
+            return "INVALID"
+        return f"RIHS{self.version:02}_{self.value.hex()}"
+
+
 @dataclass(slots=True)
 class TopicEndpointInfo:
     """Description of a publisher or subscription: its node, topic type and quality of service."""
@@ -32,6 +50,7 @@ class TopicEndpointInfo:
     topic_type: str = ""
     endpoint_type: TopicEndpointTypeEnum = TopicEndpointTypeEnum.INVALID
     qos_profile: QoSProfile = field(default_factory=lambda: copy(qos_profile_unknown))
+    topic_type_hash: TypeHash = field(default_factory=TypeHash)
     endpoint_gid: list[int] = field(default_factory=list)
 
     def __str__(self) -> str:
@@ -41,7 +60,7 @@ class TopicEndpointInfo:
             f"Node name: {self.node_name}\n"
             f"Node namespace: {self.node_namespace}\n"
             f"Topic type: {self.topic_type}\n"
-            "Topic type hash: INVALID\n"
+            f"Topic type hash: {self.topic_type_hash}\n"
             f"Endpoint type: {self.endpoint_type.name}\n"
             f"GID: {'.'.join(format(byte, '02x') for byte in self.endpoint_gid)}\n"
             "QoS profile:\n"

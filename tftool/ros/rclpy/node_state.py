@@ -102,6 +102,17 @@ class NodeState:
 
     # Entities of the node
 
+    def require_of(self, entity: Any) -> None:
+        """Check that a publisher, timer or other entity has not been destroyed.
+
+        Raises:
+            InvalidHandle: If the entity is destroyed.
+        """
+        if entity not in self.entities:
+            raise InvalidHandle(
+                f"a {type(entity).__name__} of '{self.name}' is destroyed, so it cannot be used"
+            )
+
     def require(self) -> None:
         """Check that the node has not been destroyed.
 
