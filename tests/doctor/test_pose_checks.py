@@ -178,6 +178,12 @@ def test_samples_between_a_jump_and_the_jump_back_are_outliers(every, often):
     assert "markers" in finding.fixes[2].text
 
 
+@pytest.mark.parametrize(("angle", "told"), [(2.8, True), (1.5, False)])
+def test_half_a_turn_that_lasts_asks_for_the_markers(angle, told):
+    finding = found(flips(angle, length=1.0), "teleport")
+    assert ("markers" in finding.fixes[-1].text) is told
+
+
 def test_a_lasting_jump_beside_an_outlier_is_reported_too():
     def pose(t: float) -> Pose:
         wrong = 3.0 <= t < 3.025

@@ -10,7 +10,7 @@ from tftool.doctor.findings import Area, Edge, Hit, Severity
 from tftool.doctor.gap_checks import base_at, is_detection
 from tftool.doctor.missing_joins import is_world
 from tftool.doctor.model import WARM_UP, Limits, Model
-from tftool.doctor.pose_checks import OUTLIER, look_at, outliers
+from tftool.doctor.pose_checks import OUTLIER, look_at, marker_fix, outliers
 from tftool.doctor.stamp_stream import BASES, Places, Track, last_part
 from tftool.doctor.wording import metres, moment, several, span
 from tftool.geometry.rigid_arrays import Floats, rotate, unit
@@ -158,8 +158,9 @@ def _jump(model: Model, track: Track, places: Places, limits: Limits) -> Hit | N
         count=len(jumps),
         severity=Severity.NOTE if model.is_minor(track) else None,
         group=also,
-        fixes=look_at(
-            model, track.edge, int(track.stamps[some[worst]]), int(track.stamps[others[worst]])
+        fixes=(
+            *look_at(model, track.edge, *track.stamps[places[[worst, worst + 1]]].tolist()),
+            *marker_fix(track, float(turned[worst])),
         ),
     )
 

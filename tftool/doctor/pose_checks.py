@@ -416,15 +416,24 @@ def outlier(model: Model, limits: Limits) -> Iterator[Hit]:
             severity=Severity.NOTE if model.is_minor(track) else None,
             fixes=(
                 *look_at(model, track.edge, *track.stamps[[before[0], first[0]]].tolist()),
-                *((_MARKERS,) if is_world(track.parent) and not track.is_odometry else ()),
+                *marker_fix(track),
             ),
         )
 
 
-_MARKERS = Fix(
-    "if motion capture sends it, look whether its markers were hidden, or look alike from two sides"
-)
-"""Remedy for wrong poses of a body in a world frame."""
+def marker_fix(track: Track, turned: float | None = None) -> tuple[Fix, ...]:
+    """Return the remedy for wrong poses of a body in a world frame, as of motion capture.
+
+    Args:
+        track: The edge.
+        turned: Rotation of a jump, radians, which must be half a turn; None for any jump.
+    """
+    if not is_world(track.parent) or track.is_odometry:
+        return ()
+    if turned is not None and turned < _HALF_TURN:
+        return ()
+    text = "look whether its markers were hidden, or look alike from two sides"
+    return (Fix(f"if motion capture sends it, {text}"),)
 
 
 def outliers(track: Track, limits: Limits) -> list[tuple[int, int]]:
