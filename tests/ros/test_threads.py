@@ -250,3 +250,65 @@ def test_a_child_of_multiprocessing_computes_ends_at_a_signal_and_may_not_use_rc
 
     assert out.splitlines() == ["[1, 2]", "ended by signal 15", "status 1"]
     assert "a process that multiprocessing has started cannot use rclpy in tftool" in err
+
+
+PROCESSES = """
+import time
+from multiprocessing import Process
+
+import rclpy
+from std_msgs.msg import Int32
+
+
+def talk(number):
+    rclpy.init()
+    node = rclpy.create_node(f'talker{number}')
+    out = node.create_publisher(Int32, 'numbers', 10)
+    node.create_timer(1.0, lambda: out.publish(Int32(data=number)))
+    rclpy.spin(node)
+
+
+def fail():
+    rclpy.init()
+    raise ValueError('too far')
+
+
+class Listener(Process):
+    def run(self):
+        rclpy.init()
+        node = rclpy.create_node('listener')
+        say = node.get_logger().info
+        node.create_subscription(Int32, 'numbers', lambda message: say(str(message.data)), 10)
+        rclpy.spin(node)
+
+
+if __name__ == '__main__':
+    first, second = (Process(target=talk, args=(number,)) for number in (1, 2))
+    for one in (Listener(), first, second):
+        one.start()
+    failed = Process(target=fail, name='fails')
+    failed.start()
+    failed.join()
+    assert (failed.exitcode, first.is_alive(), first.exitcode) == (1, True, None)
+    time.sleep(1.5)
+    second.terminate()
+    second.join()
+    assert not second.is_alive()
+    first.join(timeout=1.0)
+    assert first.is_alive()
+    first.join()
+"""
+
+
+def test_processes_with_nodes_are_programs_of_the_same_world(tmp_path, capfd):
+    file = tmp_path / "processes.py"
+    file.write_text(PROCESSES)
+
+    assert main(["run", "--simulated", "--for", "3.5", str(file)]) == 0
+    said = capfd.readouterr().err
+
+    heard = [line.partition("[listener]: ")[2] for line in said.splitlines() if "listener" in line]
+    # The second talker ends after 1.5 s.
+    assert sorted(heard[:2]) + heard[2:] == ["1", "2", "1", "1"]
+    assert "process 'fails' failed: ValueError: too far" in said
+    assert "rclpy.init()" not in said

@@ -70,6 +70,7 @@ class Program(Node):
         listens: Whether the program looks up transforms.
         failure: Exception that ended the program; None if the program has not failed.
         status: Exit status once the program has ended; None before.
+        has_started_programs: Whether the program has started others, by multiprocessing.
         nodes: `NodeState` of each rclpy node; empty after the end of the program.
         unserved: Destroyed nodes that were never spun, each with its number of callbacks.
         event_loops: Event loops of asyncio that the program created, closed at its end.
@@ -112,6 +113,7 @@ class Program(Node):
         self.failure: BaseException | None = None
         self.listens = False
         self.status: int | None = None
+        self.has_started_programs = False
         self.context: Any = None
         self.executor: Any = None
         self.nodes: list[Any] = []

@@ -1,4 +1,4 @@
-"""Replacements of six standard modules and of `print` for users' programs.
+"""Replacements of seven standard modules and of `print` for users' programs.
 
 A user's file that imports one of these modules gets a version that works with tftool's clock:
 
@@ -7,6 +7,7 @@ A user's file that imports one of these modules gets a version that works with t
 - `queue`: the standard queues, based on these locks.
 - `asyncio`: timers of event loops use tftool's time.
 - `concurrent.futures`: pools of such threads, and futures based on these locks.
+- `multiprocessing`: a process that uses rclpy runs as a program of the world.
 - `signal`: a handler belongs to one program instead of the process.
 
 All other files, such as those of libraries, get Python's standard modules.
@@ -24,7 +25,7 @@ import signal
 import sys
 import threading
 import time
-from collections.abc import Callable, Coroutine, Iterable, Iterator
+from collections.abc import Callable, Coroutine
 from functools import cache, partial
 from types import ModuleType
 from typing import Any
@@ -32,9 +33,17 @@ from weakref import WeakKeyDictionary
 
 from tftool.base.stamps import NANOSECONDS, Duration, seconds
 from tftool.ros.host import locks
-from tftool.ros.host.error_text import error_sentence
-from tftool.ros.host.fibers import Fiber, current
+from tftool.ros.host.fibers import current
 from tftool.ros.host.locks import running_program
+from tftool.ros.host.workers import (
+    UserThread,
+    UserThreadPool,
+    UserTimer,
+    as_completed,
+    elapsed_ns,
+    process_class,
+    wait_for_futures,
+)
 
 _REAL_SLEEP = time.sleep  # noqa: TID251
 _REAL_PRINT = print
@@ -70,11 +79,6 @@ def _now_ns() -> int:
     return time.time_ns() if owner is None else owner.now()
 
 
-def _elapsed_ns() -> int:
-    owner = running_program()
-    return time.monotonic_ns() if owner is None else owner.now() - owner.clock.epoch
-
-
 def _print(*values: object, **options: Any) -> None:
     """Print as Python does, and pass the text to the program's `on_print` function, if set."""
     _REAL_PRINT(*values, **options)
@@ -84,159 +88,6 @@ def _print(*values: object, **options: Any) -> None:
     if (file := options.get("file") or sys.stdout) in (sys.stdout, sys.stderr):
         _REAL_PRINT(*values, **{**options, "file": (text := io.StringIO()), "flush": False})
         owner.on_print(text.getvalue(), file is sys.stdout)
-
-
-class UserThread(threading.Thread):
-    """Replacement of `threading.Thread` that runs as a fiber of the calling user's program."""
-
-    _fiber: Fiber | None = None
-
-    def start(self) -> None:
-        """Start the thread as a fiber of the calling program.
-
-        If the caller belongs to no program, start an ordinary Python thread.
-        """
-        owner = running_program()
-        if owner is None:
-            super().start()
-            return
-        self._owner = owner
-        self._fiber = fiber = owner.new_fiber(self.name, self._run_and_log)
-        # The task is in a list, because `ask` would await a task itself.
-        (self._task,) = owner.ask(lambda: [owner.start_fiber(fiber)])
-
-    def _run_and_log(self) -> None:
-        """Run the thread's function and log its exception; the program's other threads continue."""
-        try:
-            self.run()
-        except Exception as error:
-            sentence = f"thread '{self.name}' failed: {error_sentence(error)}"
-            self._owner.ask(lambda: self._owner.error(sentence))
-
-    def join(self, timeout: float | None = None) -> None:
-        """Block until the thread has ended or the timeout has passed."""
-        if self._fiber is None:
-            super().join(timeout)
-            return
-        owner, fiber = self._owner, self._fiber
-        length = None if timeout is None else seconds(max(0.0, timeout))
-        if owner.is_told:
-            owner.wait_after_end(lambda: fiber.ended, length)
-            return
-        end = None if length is None else owner.clock.now() + length
-        owner.ask(lambda: owner.first_of(self._task, until=end))
-
-    def is_alive(self) -> bool:
-        """Return whether the thread was started and has not ended."""
-        return super().is_alive() if self._fiber is None else not self._fiber.ended
-
-
-class UserTimer(UserThread, threading.Timer):
-    """Replacement of `threading.Timer` that waits in seconds of tftool's clock."""
-
-    def __init__(self, *args: Any, **kwargs: Any) -> None:
-        super().__init__(*args, **kwargs)
-        self.finished: Any = locks.UserEvent()
-
-
-Future = concurrent.futures.Future[Any]
-
-
-class UserFuture(concurrent.futures.Future[Any]):
-    """Future of a `UserThreadPool`, whose timeouts count seconds of tftool's clock."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self._condition = locks.UserCondition()
-
-
-class UserThreadPool(concurrent.futures.ThreadPoolExecutor):
-    """Replacement of `ThreadPoolExecutor` whose threads run as fibers of the user's program."""
-
-    def __init__(self, *args: Any, **kwargs: Any) -> None:
-        super().__init__(*args, **kwargs)
-        self._jobs: Any = _queues().SimpleQueue()
-        self._workers: list[UserThread] = []
-        self._idle = 0
-
-    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future:
-        """Let a thread of the pool call `fn`; return a future for the result."""
-        if running_program() is None:
-            return super().submit(fn, *args, **kwargs)
-        if self._shutdown:
-            raise RuntimeError("cannot schedule new futures after shutdown")
-        future = UserFuture()
-        self._jobs.put((future, partial(fn, *args, **kwargs)))
-        if self._jobs.qsize() > self._idle and len(self._workers) < self._max_workers:
-            name = f"{self._thread_name_prefix}_{len(self._workers)}"
-            self._workers.append(UserThread(target=self._work, name=name))
-            self._workers[-1].start()
-        return future
-
-    def _work(self) -> None:
-        if self._initializer is not None:
-            self._initializer(*self._initargs)
-        while True:
-            self._idle += 1
-            job = self._jobs.get()
-            self._idle -= 1
-            if job is None:
-                return
-            future, call = job
-            if not future.set_running_or_notify_cancel():
-                continue
-            try:
-                result = call()
-            except BaseException as error:
-                future.set_exception(error)
-            else:
-                future.set_result(result)
-
-    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
-        """Refuse further calls; with `wait`, block until the pool's threads have ended."""
-        super().shutdown(wait, cancel_futures=cancel_futures)
-        while cancel_futures and not self._jobs.empty():
-            self._jobs.get()[0].cancel()
-        for _ in self._workers:
-            self._jobs.put(None)
-        for worker in self._workers if wait else ():
-            worker.join()
-
-
-def _wait_for_futures(
-    fs: Iterable[Future],
-    timeout: float | None = None,
-    return_when: str = concurrent.futures.ALL_COMPLETED,
-) -> Any:
-    """Block until some or all futures are done, as `concurrent.futures.wait` does."""
-    futures = set(fs)
-    state = locks.StateMonitor()
-
-    def is_over() -> bool:
-        done = [one for one in futures if one.done()]
-        if return_when == concurrent.futures.FIRST_COMPLETED and done:
-            return True
-        failed = (one for one in done if not one.cancelled() and one.exception() is not None)
-        if return_when == concurrent.futures.FIRST_EXCEPTION and any(failed):
-            return True
-        return len(done) == len(futures)
-
-    for one in futures:
-        one.add_done_callback(lambda _: state.wake())
-    state.wait(is_over, timeout)
-    # This returns at once, with the standard library's own type.
-    return concurrent.futures.wait(futures, 0.0)
-
-
-def _as_completed(fs: Iterable[Future], timeout: float | None = None) -> Iterator[Future]:
-    """Yield each future when it is done, as `concurrent.futures.as_completed` does."""
-    left, end = set(fs), None if timeout is None else _elapsed_ns() + seconds(timeout)
-    while left:
-        rest = None if end is None else max(0, end - _elapsed_ns()) / NANOSECONDS
-        done, left = _wait_for_futures(left, rest, concurrent.futures.FIRST_COMPLETED)
-        if not done:
-            raise TimeoutError(f"{len(left)} futures are not finished")
-        yield from done
 
 
 _HANDLERS: WeakKeyDictionary[Any, dict[int, Any]] = WeakKeyDictionary()
@@ -369,8 +220,8 @@ _FUTURES = _Shim(
     concurrent.futures,
     {
         "ThreadPoolExecutor": UserThreadPool,
-        "wait": _wait_for_futures,
-        "as_completed": _as_completed,
+        "wait": wait_for_futures,
+        "as_completed": as_completed,
     },
 )
 _SHIMS: dict[str, ModuleType] = {
@@ -382,10 +233,10 @@ _SHIMS: dict[str, ModuleType] = {
             "sleep": _sleep,
             "time": lambda: _now_ns() / NANOSECONDS,
             "time_ns": _now_ns,
-            "monotonic": lambda: _elapsed_ns() / NANOSECONDS,
-            "monotonic_ns": _elapsed_ns,
-            "perf_counter": lambda: _elapsed_ns() / NANOSECONDS,
-            "perf_counter_ns": _elapsed_ns,
+            "monotonic": lambda: elapsed_ns() / NANOSECONDS,
+            "monotonic_ns": elapsed_ns,
+            "perf_counter": lambda: elapsed_ns() / NANOSECONDS,
+            "perf_counter_ns": elapsed_ns,
         },
     ),
     "threading": _Shim(
@@ -422,6 +273,10 @@ def _import(
         return _SHIMS[name if fromlist else name.partition(".")[0]]
     if level == 0 and name == "queue":
         return _queues()
+    if level == 0 and name == "multiprocessing":
+        import multiprocessing
+
+        return _Shim(multiprocessing, {"Process": process_class()})
     owner = running_program()
     if owner is not None and owner.strict and not (level == 0 and _is_imported(name, fromlist)):
         with IMPORTING:

@@ -31,7 +31,7 @@ def file_body(path: Path) -> Callable[[], None]:
 def _run_file(path: Path, code: CodeType) -> None:
     module = load_module(path, "__main__", code)
     owner = program.current()
-    if owner.context is not None:
+    if owner.context is not None or owner.has_started_programs:
         return
     main = module.__dict__.get("main")
     if not inspect.isfunction(main) or main.__module__ != "__main__" or _reads(code, "main"):

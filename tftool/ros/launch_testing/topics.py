@@ -8,7 +8,7 @@ from functools import partial
 from typing import Any
 
 from tftool.ros.host.locks import StateMonitor
-from tftool.ros.host.shims import UserThread
+from tftool.ros.host.workers import UserThread
 from tftool.ros.rclpy.context import Context
 from tftool.ros.rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from tftool.ros.rclpy.node import Node
