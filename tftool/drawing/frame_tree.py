@@ -216,7 +216,7 @@ def _row(
     info = branch.info
     name = names[info.frame]
     if branch.closes_loop:
-        name += f" (a loop: parent is {visible(info.parent or NONE)})"
+        name += f" (a loop: its parent is {visible(info.parent or NONE)})"
     told = () if info.parent is None else facts(info)
     if told and moving is not None:
         info = info._replace(is_static=info.frame not in moving)
@@ -452,7 +452,7 @@ def _key(info: FrameInfo, order: TreeOrder) -> tuple[object, ...]:
 
 def _wrong(branch: Branch, marks: Mapping[str, Sequence[str]]) -> str:
     if branch.closes_loop:
-        return f"a loop: parent is {visible(branch.info.parent or '-')}"
+        return f"a loop: its parent is {visible(branch.info.parent or '-')}"
     ids = marks.get(branch.info.frame, ())
     if not ids:
         return ""
