@@ -132,7 +132,12 @@ def test_static_transforms_are_published(ros_runtime, package, executable, words
             ["a", "one", *"23456"],
             "'one' is not a finite number",
         ),
-        ("tf2_ros", "static_transform_publisher", ["1"], "needs 8 words, x y z yaw pitch roll"),
+        (
+            "tf2_ros",
+            "static_transform_publisher",
+            ["1"],
+            "8 words are needed .x y z yaw pitch roll",
+        ),
         (
             "tf2_ros",
             "static_transform_publisher",

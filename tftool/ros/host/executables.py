@@ -19,6 +19,7 @@ from tftool.ros.host.names import RosOptions, expand, join, named_twice
 from tftool.ros.host.program import Program, warn_without_clock
 from tftool.ros.host.workspace import Workspace, missing_package
 from tftool.world.clock import FollowedClock
+from tftool.world.link.link_options import REACHES
 from tftool.world.node import Node
 from tftool.world.nodes.broadcasters import (
     Broadcaster,
@@ -356,9 +357,10 @@ def find(workspace: Workspace, package: str | None, executable: str) -> FoundExe
             "terminal."
         )
     if found is not None and found.is_compiled(executable):
+        options = " or ".join(flag for reach in REACHES if reach.is_robots for flag in reach.FLAGS)
         raise UsageError(
             f"'{package} {executable}' is compiled from C++, so tftool cannot run it: run it with "
-            "ROS 2, and connect to it by tftool's option --dds"
+            f"ROS 2, and connect to it by tftool's option {options}"
         )
     known = [name for one, name in _OURS if one == package]
     known += [*found.scripts, *found.programs] if found is not None else []
