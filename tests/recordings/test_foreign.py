@@ -50,6 +50,18 @@ def in_json():
     }
 
 
+def in_ros_json(seconds="sec", rest="nanosec"):
+    one = in_json()
+    return {
+        "header": {
+            "stamp": {seconds: STAMP // SECOND, rest: STAMP % SECOND},
+            "frame_id": "map",
+        },
+        "child_frame_id": "base",
+        "transform": {"translation": one["translation"], "rotation": one["rotation"]},
+    }
+
+
 def written(path, kind, encoding, payloads, text="", topic="/poses"):
     stream = io.BytesIO()
     writer = Writer(stream)
@@ -76,6 +88,17 @@ def only(recording, topics=None):
         ("foxglove.FrameTransforms", "protobuf", field(1, protobuf())),
         ("foxglove.FrameTransform", "json", json.dumps(in_json()).encode()),
         ("foxglove.FrameTransforms", "json", json.dumps({"transforms": [in_json()]}).encode()),
+        ("geometry_msgs/msg/TransformStamped", "json", json.dumps(in_ros_json()).encode()),
+        (
+            "tf2_msgs/msg/TFMessage",
+            "json",
+            json.dumps({"transforms": [in_ros_json()]}).encode(),
+        ),
+        (
+            "tf2_msgs/TFMessage",
+            "json",
+            json.dumps({"transforms": [in_ros_json("secs", "nsecs")]}).encode(),
+        ),
     ],
 )
 def test_foxglove_transforms_are_transforms(tmp_path, kind, encoding, payload):

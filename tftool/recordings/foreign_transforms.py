@@ -1,4 +1,4 @@
-"""Decoders of transforms in messages of other types than TFMessage, for one message at a time.
+"""Decoders of transforms in JSON and in other types than TFMessage, for one message at a time.
 
 Sources: foxglove.dev's schemas of FrameTransform and FrameTransforms; common_interfaces.
 """
@@ -35,9 +35,10 @@ FOREIGN: Final = frozenset(
         for name in _FOXGLOVE
         for encoding in ("protobuf", "json")
     ]
-    + [("geometry_msgs/TransformStamped", encoding) for encoding in ("cdr", "ros1")]
+    + [("geometry_msgs/TransformStamped", encoding) for encoding in ("cdr", "ros1", "json")]
+    + [(kind, "json") for kind in ("tf2_msgs/TFMessage", "tf/tfMessage")]
 )
-"""Short type and encoding of messages that contain transforms, but are not TFMessages."""
+"""Short type and encoding of messages that contain transforms, but are not TFMessages as bytes."""
 
 _DOUBLE = struct.Struct("<d")
 
@@ -60,7 +61,9 @@ def decoder_of(kind: str, encoding: str, definition: str, topic: str) -> "Decode
         if encoding == "protobuf":
             return lambda payload: _protobuf(payload, several)
         if encoding == "json":
-            return lambda payload: _json(payload, several)
+            return lambda payload: _json(payload, several, _of_json)
+    if encoding == "json" and (kind, encoding) in FOREIGN:
+        return lambda payload: _json(payload, name != "TransformStamped", _of_ros_json)
     layout = {"cdr": CDR, "ros1": ROS1}.get(encoding)
     read = _READERS.get(kind)
     if layout is None or read is None:
@@ -119,10 +122,12 @@ _READERS: Final[dict[str, Callable[[Any, str], Shaped]]] = {
 # Foxglove's types
 
 
-def _json(payload: bytes, several: bool) -> list[Shaped]:
+def _json(
+    payload: bytes, several: bool, read: "Callable[[dict[str, Any]], Shaped]"
+) -> list[Shaped]:
     try:
         document = json.loads(payload)
-        return [_of_json(one) for one in (document["transforms"] if several else [document])]
+        return [read(one) for one in (document["transforms"] if several else [document])]
     except (ValueError, TypeError, KeyError, AttributeError, OverflowError) as error:
         raise MalformedMessage(
             "foxglove.FrameTransform", f"the data is not valid JSON: {error}"
@@ -134,13 +139,23 @@ def _json(payload: bytes, several: bool) -> list[Shaped]:
 
 
 def _of_json(one: dict[str, Any]) -> Shaped:
-    time = one["timestamp"]
-    place, turn = one["translation"], one["rotation"]
-    stamp = int(time["sec"]) * NANOSECONDS + int(time["nsec"])
+    return _shaped(one["timestamp"], one["parent_frame_id"], one["child_frame_id"], one)
+
+
+def _of_ros_json(one: dict[str, Any]) -> Shaped:
+    header = one["header"]
+    return _shaped(header["stamp"], header["frame_id"], one["child_frame_id"], one["transform"])
+
+
+def _shaped(time: dict[str, Any], parent: Any, child: Any, pose: dict[str, Any]) -> Shaped:
+    place, turn = pose["translation"], pose["rotation"]
+    # ROS 1 has the names secs and nsecs, ROS 2 sec and nanosec, Foxglove sec and nsec.
+    whole = time["sec" if "sec" in time else "secs"]
+    rest = time[next((name for name in ("nanosec", "nsec") if name in time), "nsecs")]
+    stamp = int(whole) * NANOSECONDS + int(rest)
     numbers = [float(place[axis]) for axis in "xyz"] + [float(turn[axis]) for axis in "xyzw"]
     x, y, z, qx, qy, qz, qw = numbers
-    parent, child = str(one["parent_frame_id"]), str(one["child_frame_id"])
-    return Shaped(_checked(stamp), parent, child, (x, y, z, qx, qy, qz, qw))
+    return Shaped(_checked(stamp), str(parent), str(child), (x, y, z, qx, qy, qz, qw))
 
 
 def _protobuf(payload: bytes, several: bool) -> list[Shaped]:
