@@ -14,7 +14,7 @@ from tftool.doctor.findings import Severity
 from tftool.doctor.judge import judge
 from tftool.doctor.model import Settings
 from tftool.drawing import finding_view
-from tftool.recordings.contract import Publisher
+from tftool.recordings.contract import Publisher, RecordedTopic
 
 
 def test_an_edge_that_stops_explains_why_scans_cannot_be_placed():
@@ -627,3 +627,19 @@ def test_the_only_transform_of_a_recording_is_a_note():
     assert found(made, "single-sample").severity is Severity.NOTE
     made.hears("/image", "camera", kind="sensor_msgs/Image")
     assert found(made, "single-sample").severity is Severity.WARNING
+
+
+@pytest.mark.parametrize(("encoding", "told"), [("protobuf", True), ("cdr", False)])
+def test_transforms_in_an_unknown_encoding_are_named(encoding, told):
+    made = Robot()
+    made.hears("/scan", "laser")
+    tf = RecordedTopic("/tf", "tf2_msgs/TFMessage", encoding, count=4, transforms=not told)
+    evidence = made.evidence()
+    (finding,) = [
+        one
+        for one in judge(replace(evidence, topics=(*evidence.topics, tf))).findings
+        if one.id == "no-transforms"
+    ]
+    assert ("4 messages on /tf in the encoding protobuf" in finding.message) is told
+    (fix,) = finding.fixes
+    assert ("look whether the robot sends" in fix.text) is not told

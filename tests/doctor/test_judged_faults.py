@@ -452,3 +452,36 @@ def test_an_arm_without_recorded_statics_is_not_measured_first():
     (fix,) = found(made, "split-tree").fixes
     assert "look whether the robot sends any" in fix.text
     assert fix.text.index("look whether") < fix.text.index("if nothing sends it, measure")
+
+
+def with_type(made: Robot, topic: str, kind: str = "geometry_msgs/TransformStamped"):
+    """Return the findings of a robot, one of whose topics has another type."""
+    evidence = made.evidence()
+    topics = tuple(replace(t, type=kind) if t.name == topic else t for t in evidence.topics)
+    return judge(replace(evidence, topics=topics))
+
+
+@pytest.mark.parametrize("parent", ["world", "observer/world"])
+def test_single_transforms_beside_lists_of_transforms_are_no_second_source(parent):
+    made = Robot()
+    made.kind = "ROS 1 bag"
+    made.moving("world", "drone", node="/vicon")
+    made.moving(parent, "drone", node="/vicon", topic="/vicon/drone")
+    found_there = with_type(made, "/vicon/drone")
+    assert [one.id for one in found_there.findings] == ["namespaced-topic"]
+    assert found_there.findings[0].topics == ("/vicon/drone",)
+
+
+def test_a_namespaced_copy_of_tf_repeats_nothing():
+    made = Robot()
+    made.kind = "ROS 1 bag"
+    made.moving("odom", "base_link")
+    made.moving("odom", "base_link", topic="/r1/tf", latency=0.006)
+    assert ids(made, notes=True) == ["namespaced-topic"]
+
+
+def test_single_transforms_of_a_frame_that_tf_lacks_are_examined():
+    made = robot()
+    made.moving("world", "ball", end=3.0, topic="/vicon/ball")
+    judged = with_type(made, "/vicon/ball")
+    assert "ball" in judged.model.frames

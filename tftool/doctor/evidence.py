@@ -1,6 +1,7 @@
 """Evidence for a diagnosis, collected from a recording, a buffer or a session."""
 
 import re
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -410,6 +411,58 @@ def _has_merged_nodes(transforms: Transforms) -> bool:
 
 _REPEATS = 10
 """Minimum number of samples that show how a transform is dated."""
+
+
+def without_copies(evidence: Evidence) -> tuple[tuple[Edge, ...], dict[str, int]]:
+    """Return the edges without transforms that no listener of /tf receives beside those of /tf.
+
+    Such transforms are on a topic of type TransformStamped, if a list of transforms (TFMessage) has
+    the child frame too. Or they are on another topic than /tf, and half of their stamps or more are
+    stamps of the same edge on /tf.
+
+    Args:
+        evidence: Evidence of any source.
+
+    Returns:
+        The edges, and the number of left-out transforms of each topic.
+    """
+    transforms, copies = evidence.transforms, Counter[str]()
+    topics = [one.topic for one in transforms.publishers]
+    usual = np.array([topic.strip("/") in ("tf", "tf_static") for topic in topics])
+    single = {one.name for one in evidence.topics if last_part(one.type) == "TransformStamped"}
+    if usual.all() and not single:
+        return transforms.edges, copies
+    is_single = np.array([topic in single for topic in topics])
+    sent = {
+        edge.child for edge in transforms.edges if not is_single[transforms.senders_of(edge)].all()
+    }
+    edges = []
+    for edge in transforms.edges:
+        senders = transforms.senders_of(edge)
+        left = is_single[senders] & (edge.child in sent)
+        heard = usual[senders] & ~is_single[senders]
+        for number in np.unique(senders[~heard & ~left]).tolist() if heard.any() else ():
+            own = senders == number
+            left |= own & (np.isin(edge.stamps[own], edge.stamps[heard]).mean() >= _COPIED)
+        if left.any():
+            for number in senders[left].tolist():
+                copies[topics[number]] += 1
+            kept = ~left
+            slashed = min(edge.slashed, int(np.count_nonzero(kept)))
+            edge = replace(
+                edge,
+                slashed=slashed,
+                records=edge.records[kept],
+                messages=edge.messages[kept],
+                kept=0,
+            )
+        if len(edge):
+            edges.append(edge)
+    return tuple(edges), copies
+
+
+_COPIED = 0.5
+"""Minimum fraction of equal stamps, for a topic that repeats the transforms of /tf."""
 
 
 def is_player(node: str) -> bool:

@@ -25,6 +25,7 @@ from tftool.doctor.stamp_stream import (
 )
 from tftool.doctor.wording import metres, several, span
 from tftool.geometry.rigid_arrays import rotate, unit
+from tftool.recordings.container_reader import TRANSFORM_TYPES
 from tftool.recordings.contract import Stamps
 
 check = checks_of(Area.COVERAGE)
@@ -643,9 +644,8 @@ _OFTEN = 50
     "no-transforms",
     Severity.ERROR,
     rule="no topic carries a transform. A warning if no message has a position either",
-    headline="there are no transforms",
+    headline="there are no transforms{unread}",
     consequence="nothing can be placed in another frame",
-    fixes=(Fix("look whether the robot sends any: `{publishers} /tf`; if so, record it"),),
     causes=("/tf and /tf_static were not in the recorder's list",),
     because_of=(("anything", "namespaced-topic"),),
 )
@@ -653,9 +653,20 @@ def no_transforms(model: Model, limits: Limits) -> Iterator[Hit]:
     """The recording has no transforms."""
     if not model.tracks and not model.nameless:
         is_needed = any(heard.is_spatial for heard in model.heard)
+        lists = [one for one in model.evidence.topics if one.type in TRANSFORM_TYPES and one.count]
+        unread = [
+            f"{count(one.count, 'message')} on {one.name} in the encoding {one.encoding}"
+            for one in lists
+            if not one.transforms
+        ]
+        fix = Fix("look whether the robot sends any: `{publishers} /tf`; if so, record it")
+        if unread:
+            fix = Fix("tftool reads tf2_msgs/TFMessage in the encodings cdr, ros1 and json")
         yield Hit(
-            topics=tuple(t.name for t in model.evidence.topics if t.transforms),
+            topics=tuple(one.name for one in model.evidence.topics if one.transforms),
             severity=None if is_needed else Severity.WARNING,
+            facts={"unread": f" that tftool can read: {several(unread)}" if unread else ""},
+            fixes=(fix,),
         )
 
 

@@ -12,7 +12,12 @@ import numpy as np
 
 from tftool.base.common_ancestor import climbed, up_to_join
 from tftool.base.stamps import CACHE_TIME, SIMULATED_BELOW, Duration, Stamp, seconds
-from tftool.doctor.evidence import Evidence, is_player, without_doubtful_names
+from tftool.doctor.evidence import (
+    Evidence,
+    is_player,
+    without_copies,
+    without_doubtful_names,
+)
 from tftool.doctor.stamp_stream import BASES, JOINT_STATES, WILD, Heard, Stream, Track, last_part
 from tftool.doctor.wording import is_ros1, ros_words
 from tftool.recordings.contract import Stamps
@@ -122,6 +127,8 @@ class Model:
         evidence: The evidence.
         settings: Settings of the listener.
         tracks: Samples of each edge, without the edges in `nameless`.
+        copies: Number of transforms that `tracks` lacks, by topic, because no listener receives
+            them beside those of /tf.
         nameless: Edges that no listener can use, because a frame name is empty or both names are
             equal.
         heard: Headers of messages, one stream for each topic and frame.
@@ -145,7 +152,8 @@ class Model:
         )
         self.evidence = evidence
         self.settings = settings or Settings()
-        tracks = [Track(edge, evidence.transforms) for edge in evidence.transforms.edges]
+        edges, self.copies = without_copies(evidence)
+        tracks = [Track(edge, evidence.transforms) for edge in edges]
         self.nameless = tuple(track for track in tracks if _is_nameless(track))
         self.tracks = tuple(track for track in tracks if not _is_nameless(track))
         self.heard = tuple(

@@ -252,7 +252,9 @@ def namespace_twins(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "namespaced-topic",
     Severity.NOTE,
-    rule="transforms are sent on a topic other than /tf and /tf_static",
+    rule="transforms are sent on a topic other than /tf and /tf_static. If /tf has the same frame, "
+    "other checks leave out single transforms (TransformStamped), and copies of the transforms on "
+    "/tf",
     headline="transforms are sent on {topics}",
     detail="{missing}",
     consequence="a listener with default topics does not receive these transforms",
@@ -263,7 +265,8 @@ def namespaced_topic(model: Model, limits: Limits) -> Iterator[Hit]:
     """Transforms are sent on /ns/tf, to which default listeners do not subscribe."""
     heard_on = {*_USUAL_TOPICS, *model.settings.tf_topics}
     heard_on |= {f"{topic}_static" for topic in model.settings.tf_topics}
-    odd = sorted({t for track in model.tracks for t in track.topics} - heard_on)
+    found = {topic for track in model.tracks for topic in track.topics} | model.copies.keys()
+    odd = sorted(found - heard_on)
     if not odd:
         return
     usual = [track for track in model.tracks if set(track.topics) & heard_on]

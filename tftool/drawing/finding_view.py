@@ -127,7 +127,7 @@ def head(model: Model) -> str:
         facts.append(count(len(material.topics), "topic"))
     facts.append(count(len(model.frames), "frame"))
     facts.append(count(len(model.trees), "tree"))
-    facts.append(count(len(material.transforms), "transform"))
+    facts.append(count(len(material.transforms) - sum(model.copies.values()), "transform"))
     return f"{material.name}: {', '.join(facts)}"
 
 
