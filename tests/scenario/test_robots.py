@@ -1,5 +1,7 @@
 """Tests of the scenario node `robot`: an arm from its description."""
 
+import re
+
 import pytest
 
 from tests.recordings.writers import SECOND, Sent, write_mcap
@@ -99,3 +101,83 @@ def test_mistakes_are_told_with_their_place(scenario, tmp_path, robot, told):
 def test_a_joint_that_is_not_there_is_told(scenario, capsys):
     assert checked(scenario("{file: crane.urdf, joints: {turm: 1}}")) in (2, 3)
     assert "did you mean 'turn'" in capsys.readouterr().err
+
+
+def two(first, second, expect="[]"):
+    """Return the text of a scenario with two nodes."""
+    return f"duration: 5 s\nnodes:\n  - {first}\n  - {second}\nexpect: {expect}\n"
+
+
+def test_two_robots_with_prefixes_keep_their_own_joint_positions(scenario):
+    path = scenario("{file: crane.urdf}")
+    path.write_text(
+        two(
+            "robot: {file: crane.urdf, frame_prefix: l/, joints: {reach: 2}}",
+            "robot: {file: crane.urdf, frame_prefix: r/, joints: {reach: 4}}",
+            "[{during: [0.1 s, 5 s], distance: {from: l/boom, to: l/hook}, is: 2 m},"
+            " {during: [0.1 s, 5 s], distance: {from: r/boom, to: r/hook}, is: 4 m}]",
+        )
+    )
+
+    assert checked(path) == 0
+
+
+def test_two_robots_keep_their_own_poses(scenario):
+    path = scenario("{file: crane.urdf}")
+    path.write_text(
+        "duration: 5 s\nnodes:\n"
+        "  - odometry: {odom: a/odom, base: a/base, speed: 0, turn_rate: 0}\n"
+        "  - odometry: {odom: b/odom, base: b/base, speed: 0, turn_rate: 0, start: {x: 7}}\n"
+        "  - localization: {odom: a/odom, base: a/base, correct_every: 1 s}\n"
+        "  - static: {parent: a/base, child: a/laser}\n"
+        "  - laser: {base: a/base, laser: a/laser, landmark: {x: 3, y: 0, z: 0}}\n"
+        "  - scan_matcher: {base: b/base, position: 0, angle: 0}\n"
+        "expect:\n"
+        "  - {at: [3 s, 5 s], lookup: {target: map, source: a/base}, value: {x: 0}}\n"
+        "  - {at: [3 s, 5 s], distance: {from: a/laser, to: laser_point}, is: 3 m}\n"
+        "  - {at: [3 s, 5 s], distance: {from: scan_start, to: scan_laser}, is: 0 m}\n"
+    )
+
+    assert checked(path) == 0
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "told"),
+    [
+        (
+            "robot: {file: crane.urdf, frame_prefix: l/}",
+            "robot: {file: crane.urdf, frame_prefix: l/}",
+            "the node of line 3 also moves joint 'l/turn': give one of the two another "
+            "'frame_prefix'",
+        ),
+        (
+            "odometry",
+            "odometry: {odom: b/odom}",
+            "the node of line 3 also moves frame 'base_link': give one of the two another 'base'",
+        ),
+        (
+            "odometry: {base: a/base}",
+            "odometry: {base: b/base}\n  - laser: {base: a/bse}",
+            "no robot has the base 'a/bse'; did you mean 'a/base'?",
+        ),
+    ],
+)
+def test_robots_that_would_move_each_other_are_refused(scenario, first, second, told):
+    path = scenario("{file: crane.urdf}")
+    path.write_text(two(first, second))
+
+    with pytest.raises(ScenarioError, match=re.escape(told)):
+        load(path)
+
+
+def test_a_laser_of_the_only_robot_may_name_another_base(scenario):
+    path = scenario("{file: crane.urdf}")
+    path.write_text(
+        two(
+            "odometry: {base: footprint, speed: 0, turn_rate: 0}",
+            "static: {parent: base_link, child: laser_link}\n  - laser",
+            "[{at: 1 s, frame: laser_point, parent: laser_link}]",
+        )
+    )
+
+    assert checked(path) == 0

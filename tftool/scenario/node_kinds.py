@@ -264,7 +264,7 @@ KINDS: Mapping[str, NodeKind] = MappingProxyType(
         ),
         "localization": NodeKind(MapCorrection, "map_frame odom base correct_every period"),
         "scan_matcher": NodeKind(
-            ScanMatcher, "origin child position angle seed period", mount=_PLANE
+            ScanMatcher, "origin child base position angle seed period", mount=_PLANE
         ),
         "laser": NodeKind(
             LaserPoint, "base laser child period", landmark=_triple(3.0, 1.0, "z", 0.2)

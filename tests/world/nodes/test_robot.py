@@ -110,7 +110,10 @@ def test_nothing_is_measured_before_the_laser_is_mounted_and_the_robot_known():
     world = new_world()
     LaserPoint(world)
     MapCorrection(world)
-    At(world, (1.0, lambda: world.topic(TRUTH, Pose).publish(build(Pose, 0.0, 0.0, 0.0))))
+    At(
+        world,
+        (1.0, lambda: world.topic(f"base_link/{TRUTH}", Pose).publish(build(Pose, 0.0, 0.0, 0.0))),
+    )
     play(world, 3.0)
 
     assert "laser_point" not in world.buffer.frames()

@@ -317,7 +317,8 @@ class MovingRobot(RobotStatePublisher):
             cycle: Nanoseconds in which the first joint goes to both limits and back. Each
                 further joint takes a little longer, so that no two joints move alike.
             period: Nanoseconds between two joint states.
-            frame_prefix: Prefix of every frame's name.
+            frame_prefix: Prefix of every frame's name. It is the namespace of the topics, too, so
+                that the joint states of one robot do not move another robot.
 
         Raises:
             UsageError: If a joint is unknown, or a recording is missing or not needed.
@@ -329,7 +330,15 @@ class MovingRobot(RobotStatePublisher):
         if motion != "recorded" and recording:
             raise UsageError("'recording' is only allowed together with 'motion: recorded'")
         file.positions(joints)
-        super().__init__(world, name, robot=file, frame_prefix=frame_prefix, publish_frequency=0.0)
+        namespace = frame_prefix.strip("/")
+        super().__init__(
+            world,
+            name,
+            robot=file,
+            frame_prefix=frame_prefix,
+            publish_frequency=0.0,
+            topics=[f"{namespace}/{topic}".lstrip("/") for topic in (JOINT_STATES, DESCRIPTION)],
+        )
         self.joints, self.motion, self.recording = dict(joints or {}), motion, tuple(recording)
         self.cycle, self.period = require_period(cycle), require_period(period)
         self._start: Stamp = 0

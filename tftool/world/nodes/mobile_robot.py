@@ -21,13 +21,13 @@ from tftool.world.nodes.broadcasters import require_period
 from tftool.world.world import World
 
 TRUTH = "ground_truth"
-"""Topic of the robot's true pose in the map."""
+"""Topic of a robot's true pose in the map, below the name of the robot's base frame."""
 
 
 class RobotOdometry(Node):
     """Node that drives a robot, and broadcasts its wheel odometry: odom to base_link.
 
-    The node publishes the true pose on `ground_truth`, and subscribes to `<base>/cmd_vel`.
+    The node publishes the true pose on `<base>/ground_truth`, and subscribes to `<base>/cmd_vel`.
     """
 
     phase: ClassVar[Phase] = Phase.SIMULATE
@@ -80,7 +80,7 @@ class RobotOdometry(Node):
             first = False
             x, y, theta = self.truth
             speed, turn = self._twist.linear_x, self._twist.angular_z
-            self.publish(TRUTH, pose(x, y, theta, speed, turn))
+            self.publish(f"{self.base}/{TRUTH}", pose(x, y, theta, speed, turn))
             self.broadcast(
                 TransformStamped(now, self.odom, self.base, transform_from_pose(*self.believed))
             )
@@ -107,11 +107,18 @@ class _Observer(Node):
     phase: ClassVar[Phase] = Phase.BROADCAST
     _truth: Any = None
 
-    def _follow_truth(self) -> None:
+    def _follow_truth(self, base: str) -> None:
+        """Subscribe to the true pose of the robot `base`; if there is one robot only, of this one.
+
+        A laser may name another frame of its robot as its base.
+        """
+
         def take(truth: Any) -> None:
             self._truth = truth
 
-        self.subscribe(TRUTH, Pose, take)
+        robots = [one.base for one in self.world.nodes if isinstance(one, RobotOdometry)]
+        followed = robots[0] if len(robots) == 1 else base
+        self.subscribe(f"{followed}/{TRUTH}", Pose, take)
 
 
 class MapCorrection(_Observer):
@@ -136,7 +143,7 @@ class MapCorrection(_Observer):
 
     async def run(self) -> None:
         """Broadcast map to odom every `period`, and correct the drift every `correct_every`."""
-        self._follow_truth()
+        self._follow_truth(self.base)
         map_from_odom = Transform.identity()
         due = self.clock.now() + self.correct_every
         async for now in self.every(self.period, immediately=True):
@@ -181,7 +188,7 @@ class LaserPoint(_Observer):
 
     async def run(self) -> None:
         """Broadcast the point every period until the end of the run."""
-        self._follow_truth()
+        self._follow_truth(self.base)
         async for now in self.every(self.period, immediately=True):
             if self._truth is None or not self.buffer.can_transform(self.base, self.laser):
                 continue
@@ -205,6 +212,7 @@ class ScanMatcher(_Observer):
         *,
         origin: str = "scan_start",
         child: str = "scan_laser",
+        base: str = "base_link",
         mount: tuple[float, float, float] = (0.0, 0.0, 0.0),
         position: float = 0.002,
         angle: float = 0.002,
@@ -218,6 +226,7 @@ class ScanMatcher(_Observer):
             name: Name of the node.
             origin: Frame of the first scan.
             child: Frame of the laser as estimated from the scans.
+            base: Frame of the robot with the laser.
             mount: True x, y and heading of the laser on the robot.
             position: Standard deviation of x and of y, metres.
             angle: Standard deviation of the heading, radians.
@@ -225,7 +234,7 @@ class ScanMatcher(_Observer):
             period: Nanoseconds between two broadcasts.
         """
         super().__init__(world, name)
-        self.origin, self.child = origin, child
+        self.origin, self.child, self.base = origin, child, base
         self.mount = transform_from_pose(*mount)
         self.position, self.angle = position, angle
         self.period = require_period(period)
@@ -233,7 +242,7 @@ class ScanMatcher(_Observer):
 
     async def run(self) -> None:
         """Broadcast the laser's estimated pose every period until the end of the run."""
-        self._follow_truth()
+        self._follow_truth(self.base)
         start_from_map: Transform | None = None
         async for now in self.every(self.period, immediately=True):
             if self._truth is None:
