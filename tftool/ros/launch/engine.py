@@ -264,9 +264,9 @@ class Launch(Node):
         details = getattr(action, "process_details", None) or {"name": label}
         return {"action": action, **details}
 
-    def _report_start(self, action: Any, label: str, words: Sequence[str], **details: Any) -> None:
+    def _report_start(self, label: str, words: Sequence[str], **details: Any) -> None:
         """Log that a process has started, and emit a `ProcessStarted` event."""
-        action.process_details = {"name": label, "cmd": list(words), **details}
+        self._actions[label].process_details = {"name": label, "cmd": list(words), **details}
         shown = f": {shlex.join(words)}" if details else ""  # not for nodes
         self._say("INFO", label, f"process started{shown}")
         self.emit(ProcessStarted(**self._event_arguments(label)))
@@ -382,10 +382,8 @@ class Launch(Node):
             executable: Program to start, with its arguments.
             respawn: Seconds between the end and a new start of the program; None to start it once.
         """
-        label = self._label(executable.label)
-        self._actions[label] = action
 
-        def start() -> None:
+        def start(label: str) -> None:
             try:
                 workspace = self.context.workspace
                 node = executables.start(
@@ -395,7 +393,7 @@ class Launch(Node):
                     argv=executable.argv or executable.launched_argv(),
                     arguments=executable.arguments,
                     options=executable.options,
-                    on_exit=partial(self._program_ended, action, label),
+                    on_exit=partial(self._program_ended, label),
                 )
             except executables.HasItsOwnCommand as error:
                 # The launch goes on without this program.
@@ -403,14 +401,14 @@ class Launch(Node):
                 return
             if isinstance(node, Program):
                 node.on_print = partial(self._printed, label)
-                self._running[label] = partial(self._remove, action, label, node)
+                self._running[label] = partial(self._remove, label, node)
             else:
                 self.labels[node.name] = label
                 # The program runs as long as the world, which ends with the launch.
-                self._running[label] = partial(self._ended, action, label, 0, "")
-            self._report_start(action, label, [executable.name, *executable.arguments])
+                self._running[label] = partial(self._ended, label, 0, "")
+            self._report_start(label, [executable.name, *executable.arguments])
 
-        self._start(label, start, respawn)
+        self._start(action, executable.label, start, respawn)
 
     def start_process(
         self, action: Any, name: str, command: SystemCommand, respawn: float | None
@@ -422,15 +420,13 @@ class Launch(Node):
 
         For the arguments see `start_node`; a number is added to `name`, the name in log lines.
         """
-        label = self._label(name)
-        self._actions[label] = action
 
-        def start() -> None:
+        def start(label: str) -> None:
             env, cwd = dict(command.environment), command.cwd
-            self._report_start(action, label, command.words, cwd=cwd, env=env)
-            self._start_task(self._watch(action, label, command), self._watches)
+            self._report_start(label, command.words, cwd=cwd, env=env)
+            self._start_task(self._watch(label, command), self._watches)
 
-        self._start(label, start, respawn)
+        self._start(action, name, start, respawn)
 
     def start_ros2(self, action: Any, words: Sequence[str], respawn: float | None) -> None:
         """Run a command `ros2 WORDS` as a program of the world, in tftool's process.
@@ -456,35 +452,34 @@ class Launch(Node):
 
         For the arguments see `start_node`; the first word of `argv` becomes the name in log lines.
         """
-        label = self._label(Path(argv[0]).name)
+
+        def start(label: str) -> None:
+            ended = partial(self._program_ended, label)
+            started = Program(self.world, label, function, argv=argv, on_exit=ended)
+            self._running[label] = partial(self._remove, label, started)
+            self._report_start(label, argv, cwd=None)
+
+        return self._start(action, Path(argv[0]).name, start, respawn)
+
+    def _start(
+        self, action: Any, name: str, start: Callable[[str], None], respawn: float | None
+    ) -> str:
+        """Start a program of an action; return its name in log lines, which `start` takes."""
+        self._count += 1
+        # A launch inside this one may have a program of the same name and number.
+        label = self.world.free_name(f"{name}-{self._count}")
         self._actions[label] = action
-
-        def start() -> None:
-            started = Program(
-                self.world,
-                label,
-                function,
-                argv=argv,
-                on_exit=partial(self._program_ended, action, label),
-            )
-            self._running[label] = partial(self._remove, action, label, started)
-            self._report_start(action, label, argv, cwd=None)
-
-        self._start(label, start, respawn)
+        # The end of one program may start another one.
+        if not self._closing:
+            if respawn is not None:
+                most = getattr(action, "respawn_max_retries", -1)
+                self._respawns[label] = (max(respawn, SOONEST), partial(start, label), most)
+            start(label)
         return label
 
-    def _start(self, label: str, start: Callable[[], None], respawn: float | None) -> None:
-        if self._closing:
-            # The end of one program may start another one.
-            return
-        if respawn is not None:
-            most = getattr(self._actions[label], "respawn_max_retries", -1)
-            self._respawns[label] = (max(respawn, SOONEST), start, most)
-        start()
-
-    async def _watch(self, action: Any, label: str, command: SystemCommand) -> None:
+    async def _watch(self, label: str, command: SystemCommand) -> None:
         def on_start(process: asyncio.subprocess.Process) -> None:
-            action.process_details["pid"] = process.pid
+            self._actions[label].process_details["pid"] = process.pid
             self._running[label] = partial(commands.interrupt, process)
             if self._closing:
                 commands.interrupt(process)
@@ -494,18 +489,18 @@ class Launch(Node):
             status = await self._commands.run(command, label, on_start, partial(self._line, label))
         except UsageError as error:
             reason = str(error)
-        self._ended(action, label, status, reason)
+        self._ended(label, status, reason)
 
     # Ends of programs
 
-    def _remove(self, action: Any, label: str, node: Program) -> None:
+    def _remove(self, label: str, node: Program) -> None:
         if node.is_begun:
             self.world.remove(node)
         else:
             # A program that was started in this instant does not report its end.
-            self._program_ended(action, label, node)
+            self._program_ended(label, node)
 
-    def _program_ended(self, action: Any, label: str, ended: Program) -> None:
+    def _program_ended(self, label: str, ended: Program) -> None:
         # The node's name is free, so that the program may be started again.
         self.world.remove(ended)
         reason = "" if ended.failure is None else error_sentence(ended.failure)
@@ -514,9 +509,10 @@ class Launch(Node):
         # A program that must end before it creates its node finds rclpy shut down.
         too_late = ended.interrupted and isinstance(ended.failure, NotInitializedException)
         interrupted = ended.status == 130 or too_late
-        self._ended(action, label, 0 if interrupted else ended.status or 0, reason)
+        self._ended(label, 0 if interrupted else ended.status or 0, reason)
 
-    def _ended(self, action: Any, label: str, status: int, reason: str) -> None:
+    def _ended(self, label: str, status: int, reason: str) -> None:
+        action = self._actions[label]
         self._running.pop(label, None)
         stopped = self._closing and status in (-signal.SIGINT, -signal.SIGTERM, 130)
         if status == 0 or stopped:
@@ -577,11 +573,6 @@ class Launch(Node):
             self._look_round()
 
         task.add_done_callback(ended)
-
-    def _label(self, name: str) -> str:
-        self._count += 1
-        # A launch inside this one may have a program of the same name and number.
-        return self.world.free_name(f"{name}-{self._count}")
 
     def label_of(self, record: LogRecord) -> str:
         """Return the name, in the launch's log lines, of the program that wrote a log record."""

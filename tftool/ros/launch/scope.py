@@ -170,7 +170,8 @@ class SetParameter(Action):
 
     def __init__(self, name: Any, value: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        (self._normalized,) = normalize_parameters([{_hashable(name): value}])
+        given = tuple(name) if isinstance(name, list) else name  # a key cannot be a list
+        (self._normalized,) = normalize_parameters([{given: value}])
         ((key, self.value),) = self._normalized.items()
         self.name = list(key)
 
@@ -178,10 +179,6 @@ class SetParameter(Action):
         """Set the parameter in the scope."""
         found = read_all(context, [self._normalized])
         _keep(context, _PARAMETERS, *((name, value) for _, name, value in found))
-
-
-def _hashable(name: Any) -> Any:
-    return tuple(name) if isinstance(name, list) else name
 
 
 class SetUseSimTime(SetParameter):
