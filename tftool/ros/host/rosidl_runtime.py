@@ -3,6 +3,7 @@
 import math
 from collections import OrderedDict
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import Any
 
 from tftool.base.errors import InputError, UsageError
@@ -261,31 +262,10 @@ def set_message_fields(msg: Any, values: Mapping[str, Any], **_: Any) -> None:
             fill(msg, {name: value})
 
 
-def get_message(identifier: str) -> Any:
-    """Return the message class with the full name "package/msg/Name".
-
-    Raises:
-        UsageError: If there is no such message; the text names a similar one.
-    """
-    return interface(identifier, "msg")
-
-
-def get_service(identifier: str) -> Any:
-    """Return the service class with the full name "package/srv/Name".
-
-    Raises:
-        UsageError: If there is no such service; the text names a similar one.
-    """
-    return interface(identifier, "srv")
-
-
-def get_action(identifier: str) -> Any:
-    """Return the action class with the full name "package/action/Name".
-
-    Raises:
-        UsageError: If there is no such action; the text names a similar one.
-    """
-    return interface(identifier, "action")
+# Functions that return the class with a full name, such as "package/msg/Name".
+get_message = partial(interface, kind="msg")
+get_service = partial(interface, kind="srv")
+get_action = partial(interface, kind="action")
 
 
 def get_interface(identifier: str) -> Any:

@@ -25,11 +25,9 @@ def topic_class(message_class: type[Message], topic: str) -> type[Any]:
 
 def pack(message: Any, value_class: type[Any]) -> Any:
     """Copy a user's message to a new value of the class `value_class`, for a topic of tftool."""
-    return (
-        _pack_transforms(message)
-        if value_class is TransformMessage
-        else recast(message, value_class)
-    )
+    if value_class is TransformMessage:
+        return TransformMessage(tuple(map(pack_transform, message.transforms)), "")
+    return recast(message, value_class)
 
 
 def unpack(value: Any, message_class: type[Message]) -> Any:
@@ -78,10 +76,6 @@ def unpack_transform(sample: TransformStamped) -> Any:
     moved.x, moved.y, moved.z = sample.transform.translation
     turned.x, turned.y, turned.z, turned.w = sample.transform.rotation
     return message
-
-
-def _pack_transforms(message: Any) -> TransformMessage:
-    return TransformMessage(tuple(pack_transform(one) for one in message.transforms), "")
 
 
 def unpack_transforms(value: TransformMessage) -> Any:

@@ -70,30 +70,32 @@ class InvalidHandle(Exception):
     """Error for using a destroyed node, publisher, timer or the like."""
 
 
+def _names(parameters: "str | Iterable[str]") -> list[str]:
+    return [parameters] if isinstance(parameters, str) else list(parameters)
+
+
 class ParameterException(Exception):
     """Error for a parameter that cannot be used as requested."""
 
     def __init__(self, text: str, parameters: "str | Iterable[str]" = ()) -> None:
         super().__init__(text)
-        self.parameters = [parameters] if isinstance(parameters, str) else list(parameters)
+        self.parameters = _names(parameters)
 
 
 class ParameterNotDeclaredException(ParameterException):
     """Error for a parameter used before its declaration."""
 
     def __init__(self, parameters: "str | Iterable[str]", known: Iterable[str] = ()) -> None:
-        names = [parameters] if isinstance(parameters, str) else list(parameters)
-        text = f"Invalid access to undeclared parameter(s): {names}"
-        for name in names:
-            text += did_you_mean(name, known)
-        super().__init__(text, names)
+        names = _names(parameters)
+        hints = "".join(did_you_mean(name, known) for name in names)
+        super().__init__(f"Invalid access to undeclared parameter(s): {names}{hints}", names)
 
 
 class ParameterAlreadyDeclaredException(ParameterException):
     """Error for a parameter declared twice."""
 
     def __init__(self, parameters: "str | Iterable[str]") -> None:
-        names = [parameters] if isinstance(parameters, str) else list(parameters)
+        names = _names(parameters)
         super().__init__(f"Parameter(s) already declared: {names}", names)
 
 
@@ -117,7 +119,7 @@ class ParameterImmutableException(ParameterException):
     """Error for setting a read-only parameter."""
 
     def __init__(self, parameters: "str | Iterable[str]") -> None:
-        names = [parameters] if isinstance(parameters, str) else list(parameters)
+        names = _names(parameters)
         super().__init__(f"Attempted to modify read-only parameter(s): {names}", names)
 
 

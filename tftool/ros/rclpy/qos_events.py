@@ -80,7 +80,7 @@ class QoSMatchedInfo(NamedTuple):
 Told = Callable[[Any], object] | None
 
 
-@dataclass(slots=True)
+@dataclass(kw_only=True)
 class PublisherEventCallbacks:
     """Callbacks for the events of a publisher; None to ignore an event."""
 
@@ -92,17 +92,11 @@ class PublisherEventCallbacks:
     use_default_callbacks: bool = True
 
 
-@dataclass(slots=True)
-class SubscriptionEventCallbacks:
+@dataclass(kw_only=True)
+class SubscriptionEventCallbacks(PublisherEventCallbacks):
     """Callbacks for the events of a subscription; None to ignore an event."""
 
-    incompatible_qos: Told = None
-    liveliness: Told = None
-    deadline: Told = None
     message_lost: Told = None
-    incompatible_type: Told = None
-    matched: Told = None
-    use_default_callbacks: bool = True
 
 
 class Silence:

@@ -49,11 +49,7 @@ def validate_topic_name(name: str, *, is_service: bool = False) -> bool:
         InvalidTopicNameException: If the name is not a valid topic name.
         InvalidServiceNameException: If the name cannot be the name of a service.
     """
-    if (fault := names.topic_name_fault(name)) is not None:
-        raise (InvalidServiceNameException if is_service else InvalidTopicNameException)(
-            name, *fault
-        )
-    return True
+    return _passes(name, names.topic_name_fault(name), is_service)
 
 
 def validate_full_topic_name(name: str, *, is_service: bool = False) -> bool:
@@ -64,11 +60,13 @@ def validate_full_topic_name(name: str, *, is_service: bool = False) -> bool:
         InvalidServiceNameException: If the name cannot be the name of a service.
     """
     fault = names.namespace_fault(name) if name != "/" else Fault("it must not end with '/'", 0)
-    if fault is not None:
-        raise (InvalidServiceNameException if is_service else InvalidTopicNameException)(
-            name, *fault
-        )
-    return True
+    return _passes(name, fault, is_service)
+
+
+def _passes(name: str, fault: Fault | None, is_service: bool) -> bool:
+    if fault is None:
+        return True
+    raise (InvalidServiceNameException if is_service else InvalidTopicNameException)(name, *fault)
 
 
 def validate_parameter_name(name: str) -> bool:
