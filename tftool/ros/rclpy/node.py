@@ -370,17 +370,8 @@ class Node(NodeGraph, NodeParameters):
     @property
     def publishers(self) -> Iterator[Publisher]:
         """Publishers of the node; as in ROS 2, without the publisher of log messages on /rosout."""
-        yield from (one for one in self.__all(Publisher) if one is not self._tftool.rosout)
-
-    @property
-    def subscriptions(self) -> Iterator[Subscription]:
-        """Subscriptions of the node."""
-        yield from self.__all(Subscription)
-
-    @property
-    def clients(self) -> Iterator[Client]:
-        """Clients of the node."""
-        yield from self.__all(Client)
+        rosout = self._tftool.rosout
+        yield from (one for one in self.__all(Publisher) if one is not rosout)
 
     @property
     def services(self) -> Iterator[Service]:
@@ -388,18 +379,13 @@ class Node(NodeGraph, NodeParameters):
         self._tftool.program.ask(self._tftool.world.services)  # which creates the node's own ones
         yield from self.__all(Service)
 
-    @property
-    def timers(self) -> Iterator[Timer]:
-        """Timers of the node."""
-        yield from self.__all(Timer)
+    def __all(self, kind: type[E]) -> Iterator[E]:
+        yield from [one for one in self._tftool.entities if isinstance(one, kind)]
 
-    @property
-    def guards(self) -> Iterator[GuardCondition]:
-        """Guard conditions of the node."""
-        yield from self.__all(GuardCondition)
-
-    def __all(self, kind: type[E]) -> list[E]:
-        return [one for one in self._tftool.entities if isinstance(one, kind)]
+    subscriptions = property(partial(__all, kind=Subscription))
+    clients = property(partial(__all, kind=Client))
+    timers = property(partial(__all, kind=Timer))
+    guards = property(partial(__all, kind=GuardCondition))
 
 
 def _with_arguments(options: names.RosOptions, cli_args: Sequence[str]) -> names.RosOptions:

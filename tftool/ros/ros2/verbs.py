@@ -14,7 +14,7 @@ from tftool.ros.rclpy.node_graph import (
     get_action_client_names_and_types_by_node,
     get_action_server_names_and_types_by_node,
 )
-from tftool.ros.rclpy.parameter import Parameter, parameter_dict_from_yaml_file
+from tftool.ros.rclpy.parameter import Parameter, Type, parameter_dict_from_yaml_file
 from tftool.ros.rclpy.parameter_client import AsyncParameterClient
 from tftool.ros.rclpy.validation import topic_or_service_is_hidden
 from tftool.ros.ros2 import topic_verbs
@@ -125,7 +125,7 @@ def _param_list(node: Node, args: argparse.Namespace, show: Print) -> None:
             show_lines("\n".join(f"  {name}" for name in known), show)
             return
         for one in _answer(node, client.describe_parameters(known)).descriptors:
-            show(f"  {one.name} (type: {_TYPES.get(one.type, 'not set')})")
+            show(f"  {one.name} (type: {_type_name(one.type)})")
 
     if args.node is not None:
         each(args.node)
@@ -191,7 +191,7 @@ def _param_describe(node: Node, args: argparse.Namespace, show: Print) -> None:
     client = _parameters(node, args.node)
     for one in _answer(node, client.describe_parameters(args.names)).descriptors:
         show(f"Parameter name: {one.name}")
-        show(f"  Type: {_TYPES.get(one.type, 'not set')}")
+        show(f"  Type: {_type_name(one.type)}")
         if one.description:
             show(f"  Description: {one.description}")
         show("  Constraints:")
@@ -205,10 +205,8 @@ def _param_describe(node: Node, args: argparse.Namespace, show: Print) -> None:
             show(f"    Additional constraints: {one.additional_constraints}")
 
 
-_TYPES = {
-    1: "boolean", 2: "integer", 3: "double", 4: "string", 5: "byte array",
-    6: "boolean array", 7: "integer array", 8: "double array", 9: "string array",
-}  # fmt: skip
+def _type_name(number: int) -> str:
+    return Type(number).name.lower().replace("_", " ").replace("bool", "boolean")
 
 
 def _param_load(node: Node, args: argparse.Namespace, show: Print) -> int:
