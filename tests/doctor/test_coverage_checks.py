@@ -643,3 +643,47 @@ def test_transforms_in_an_unknown_encoding_are_named(encoding, told):
     assert ("4 messages on /tf in the encoding protobuf" in finding.message) is told
     (fix,) = finding.fixes
     assert ("look whether the robot sends" in fix.text) is not told
+
+
+def faces(lasting: float) -> Robot:
+    """Return a robot whose detector sends faces, each with a gaze below, for a time in turn."""
+    made = robot()
+    for number, name in enumerate(("kwxyz", "abcde", "qprst", "lmnop")):
+        begin = 0.2 + (1.5 * number if lasting < 4.0 else 0.0)
+        for parent, child in (("laser", f"face_{name}"), (f"face_{name}", f"gaze_{name}")):
+            made.moving(parent, child, 20.0, begin=begin, end=begin + lasting, node="/detector")
+    return made
+
+
+def test_faces_that_come_and_go_have_not_stopped():
+    made = faces(1.4)
+    for at, name in ((2.0, "uvwxy"), (3.0, "zabcd")):
+        made.sent("laser", f"face_{name}", at, node="/detector")
+    assert ids(made) == []
+    assert ids(made, notes=True) == ["single-sample"]
+    assert "false detection" in found(made, "single-sample").fixes[0].text
+    assert ids(faces(5.0), notes=True) == ["edge-stopped"]
+
+
+def test_noise_of_a_face_that_comes_and_goes_is_a_note():
+    for lasting, severity in ((1.4, Severity.NOTE), (7.0, Severity.WARNING)):
+        made = faces(lasting)
+        made.moving(
+            "laser",
+            "face_noisy",
+            20.0,
+            lambda t, half=0.7 * lasting: (
+                0.5 * (round(20 * t) % 2) * (t < 1.0 + half),
+                0.0,
+                1.0,
+                *NO_TURN,
+            ),
+            begin=1.0,
+            end=1.0 + lasting,
+            node="/detector",
+        )
+        finding = found(made, "publisher-conflict")
+        assert finding.severity is severity
+        rates = finding.facts["rates"]
+        assert isinstance(rates, list)
+        assert sum(rates) == pytest.approx(20.0, rel=0.1)

@@ -261,3 +261,13 @@ def test_utm_coordinates_of_a_position_of_zeros_are_told(x, y, told):
         made.static(*edge, (x, y, 0.0, *NO_TURN))
         made.moving("odom" if edge[0] == "odom" else "map", "body")
         assert ids(made) == told
+
+
+def test_a_single_wrong_sample_among_slow_steps_and_turns_is_an_outlier():
+    made = Robot()
+    for tick in range(200):
+        # The large usual steps are slow: they follow pauses.
+        where = 1.5 if tick == 100 else 1.0 + 0.08 * (tick // 8 % 2)
+        pose = (0.0, 0.0, where, *turned(0.2 * (tick > 99) + 0.4 * (tick > 100), 1))
+        made.sent("camera", "tool", tick / 25 + 0.1 * (tick // 8), pose)
+    assert ids(made) == ["outlier"]

@@ -32,11 +32,14 @@ _RADIAN = 0.5
 def severity_of(model: Model, track: Track, hit: Hit, limits: Limits) -> Severity | None:
     """Return NOTE for a possible conflict, WARNING if likely or harmless, else None (the default).
 
-    A harmless conflict is between two nearly equal poses, or concerns a minor part of the robot,
+    A likely conflict about a detected object that comes and goes is a noisy detection, a NOTE. A
+    harmless conflict is between two nearly equal poses, or concerns a minor part of the robot,
     such as a wheel.
     """
     if hit.confidence is not Confidence.CERTAIN:
-        return Severity.NOTE if hit.confidence is Confidence.POSSIBLE else Severity.WARNING
+        is_noise = track.child in model.passing and len(track.publishers) == 1
+        is_possible = hit.confidence is Confidence.POSSIBLE
+        return Severity.NOTE if is_possible or is_noise else Severity.WARNING
     worst, turned = hit.facts["worst"], hit.facts["most_turned"]
     assert isinstance(worst, float)
     assert isinstance(turned, float)
@@ -429,12 +432,13 @@ def _conflict(
         confidence: Confidence that there are two publishers.
     """
     rates, late = [], []
+    known = confidence is Confidence.CERTAIN
+    both = int(np.ptp(track.stamps[np.concatenate(sent)]))
     for places in sent:
         stamps = track.stamps[places]
-        lasts = int(np.ptp(stamps))
+        lasts = int(np.ptp(stamps)) if known else both
         rates.append((len(stamps) - 1) * NANOSECONDS / lasts if lasts else 0.0)
         late.append(int(np.median(track.latency[places])))
-    known = confidence is Confidence.CERTAIN
     apart, turned = track.apart(*owned), track.turned(*owned)
     seen = f": {names[0]} and {names[1]}" if known else ", by turns"
     is_one = not known and len(track.nodes) == 1 and len(track.publishers) == 1

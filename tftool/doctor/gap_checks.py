@@ -55,8 +55,9 @@ def holes(track: Track, limits: Limits) -> list[tuple[int, int]]:
     Severity.ERROR,
     rule="the last sample of a transform arrives more than {periods:g} periods, {seconds:g} s and "
     "a share of {share:g} of the recording before its end, while other streams continue. The "
-    "transform has {samples:g} samples or more, and is not a detection of a camera without "
-    "child frames. A warning if all moving transforms end. Other streams are also {commands:g} or "
+    "transform has {samples:g} samples or more, and is not a detection of a camera: a frame "
+    "without child frames, or one of three or more objects of one publisher that come and go. A "
+    "warning if all moving transforms end. Other streams are also {commands:g} or "
     "more commands to move without a header, such as Twist. A note if a player of recordings sent "
     "the transforms and no /clock continues, and if all messages of the robot end too, and only "
     "constant transforms go on. A warning if the recording has no later scan, point "
@@ -220,8 +221,11 @@ _SEEN = re.compile(
 def is_detection(model: Model, track: Track) -> bool:
     """Whether the child of an edge is probably an object that a camera detects, such as a marker.
 
-    Such a child has no children and no messages. Its name or irregular rate fits a detection.
+    Such a child is one of several that come and go, or it has no children and no messages, and its
+    name or irregular rate fits a detection.
     """
+    if track.child in model.passing:
+        return True
     if len(model.below(track.child)) > 1 or any(h.frame == track.child for h in model.heard):
         return False
     steps = track.steps
@@ -587,8 +591,9 @@ def coarse_odometry(model: Model, limits: Limits) -> Iterator[Hit]:
     "single-sample",
     Severity.WARNING,
     rule="a transform on a topic for moving transforms was sent once. A note if the recording "
-    "contains no other data, or lasts less than 1 s. A note also for a frame in map, odom or world "
-    "if no message with a position is in this frame or below it",
+    "contains no other data, or lasts less than 1 s. A note also for one of three or more objects "
+    "of one publisher that come and go, and for a frame in map, odom or world if no message with a "
+    "position is in this frame or below it",
     headline="{where} {concerned:was|were} sent once, on /tf",
     detail="{edge}: at {stamp:moment}{beside}",
     consequence="lookups at other times fail",
@@ -609,13 +614,14 @@ def single_sample(model: Model, limits: Limits) -> Iterator[Hit]:
                 Fix(f"if the frame rests, let {sender} send it on /tf_static, else regularly"),
             )
             alike = [other for other in model.dynamic if _is_sibling(track, other)]
-            if alike and is_detection(model, track):
+            is_passing = track.child in model.passing
+            if is_passing or (alike and is_detection(model, track)):
                 names = [f"{one.child} {count(len(one.stamps), 'time')}" for one in alike]
-                beside = f"; {several(names, 3)}"
+                beside = f"; {several(names, 3)}" if names else ""
                 fix = Fix("probably a false detection: look whether the object was there")
             is_short = model.end - model.start < NANOSECONDS
             is_all = is_short or (len(model.tracks) == 1 and not model.heard)
-            is_shown = _is_used(model, track) and not is_all
+            is_shown = _is_used(model, track) and not is_all and not is_passing
             yield hit_of(
                 track,
                 {"stamp": int(track.stamps[0]), "beside": beside},

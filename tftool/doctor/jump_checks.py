@@ -27,7 +27,8 @@ check = checks_of(Area.VALUES)
     "speeds. Such steps are at most a share of {share:g} of all steps ({triggered:g} if each "
     "step comes within 50 ms after a position message) or at most {few:g} steps, among {samples:g} "
     "samples or more of one publisher. A note for a part of a robot if no sensor message is "
-    "in its frame. A localiser is reported for {corrections:g} steps or more that move the "
+    "in its frame, and for one of three or more objects of one publisher that come and go. A "
+    "localiser is reported for {corrections:g} steps or more that move the "
     "robot by {corrected:g} m, not counting the step to an initial pose. An object that a "
     "camera detects is reported for {corrections:g} steps or more of {detected:g} m and 2 m/s "
     "within 1 s",
@@ -156,7 +157,7 @@ def _jump(model: Model, track: Track, places: Places, limits: Limits) -> Hit | N
         since=int(track.logs[others[jumps[0]]]),
         until=int(track.logs[others[jumps[-1]]]),
         count=len(jumps),
-        severity=Severity.NOTE if model.is_minor(track) else None,
+        severity=Severity.NOTE if model.is_minor(track) or track.child in model.passing else None,
         group=also,
         fixes=(
             *look_at(model, track.edge, *track.stamps[places[[worst, worst + 1]]].tolist()),
@@ -291,6 +292,7 @@ def _repeated_jumps(
         since=int(track.logs[places[steps[0] + 1]]),
         until=int(track.logs[places[steps[-1] + 1]]),
         count=len(steps),
+        severity=Severity.NOTE if track.child in model.passing else None,
         group=words[2],
         fixes=look_at(model, shown, *track.stamps[places[[worst, worst + 1]]].tolist()),
     )

@@ -3,6 +3,7 @@
 The checks read this model. The module `evidence` reads the files.
 """
 
+import re
 from collections import Counter, defaultdict
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -65,6 +66,12 @@ _FIXED = 3
 
 _AHEAD = seconds(0.1)
 """Maximum time by which a static_transform_publisher of ROS 1 dates ahead: its usual period."""
+
+_LAST_WORD = re.compile(r"\d+$|(?<![^_.-])[^_.-]+$")
+"""Part of a frame name that differs between objects of one kind, such as marker_7 or face_kwxyz."""
+
+_A_FEW = 3
+"""Minimum number of objects of one kind that show a detector."""
 
 SHIFT = seconds(2)
 """Minimum constant difference between stamps and reception that counts as a shift of the clock."""
@@ -395,6 +402,27 @@ class Model:
         for child, track in self.parents.items():
             children.setdefault(track.parent, []).append(child)
         return children
+
+    @cached_property
+    def passing(self) -> frozenset[str]:
+        """Frames of objects that come and go, as a detector sends them, and the frames below.
+
+        Such objects are three or more of one publisher and one parent, with one name except for a
+        number or the last word. Most of them last less than half of the time from the first to the
+        last of them.
+        """
+        kinds: dict[tuple[object, ...], list[Track]] = defaultdict(list)
+        for track in self.dynamic:
+            if kind := _LAST_WORD.sub("", last_part(track.child)):
+                kinds[(track.parent, track.nodes, track.topics, kind)].append(track)
+        found: set[str] = set()
+        for (_, nodes, *_), tracks in kinds.items():
+            lasts = np.array([(track.logs[0], track.logs[-1]) for track in tracks])
+            half = (lasts[:, 1].max() - lasts[:, 0].min()) // 2
+            if len(tracks) >= _A_FEW and np.mean(lasts[:, 1] - lasts[:, 0] < half) > 0.5:
+                below = frozenset[str]().union(*(self.below(track.child) for track in tracks))
+                found |= {child for child in below if self.parents[child].nodes == nodes}
+        return frozenset(found)
 
     @cached_property
     def sensor_frame(self) -> str:

@@ -342,6 +342,7 @@ def look_at(model: Model, edge: Edge, before: Stamp, after: Stamp) -> tuple[Fix,
 
 OUTLIER = {
     "metres": 0.25,
+    "speed": 5.0,
     "radians": 0.5,
     "times": 8.0,
     "samples": 10,
@@ -363,11 +364,13 @@ _STEADY = math.radians(20.0)
     "outlier",
     Severity.WARNING,
     rule="a pose jumps by more than {metres:g} m or {radians:g} rad, and by {times:g} times the "
-    "95 % quantile of all steps. At most {samples:g} samples and {seconds:g} s later, a second "
-    "such jump leads back: the rest is at most {back:%} of the jump. Such jumps are at most a "
-    "share of {share:g} of all steps. Turns of 150° or more of a moving frame that usually turns "
-    "by less than 20° may be more, and last {periods:g} periods. A note for a part of a robot if "
-    "no sensor message is in its frame. Not reported for a localiser",
+    "95 % quantile of all steps, or by more than {metres:g} m, at more than {speed:g} m/s and "
+    "{times:g} times the 95 % quantile of all speeds. At most {samples:g} samples and {seconds:g} "
+    "s later, it is back: the rest is at most {back:%} of the jump. Such jumps are at most a share "
+    "of {share:g} of all steps. Turns of 150° or more of a moving frame that usually turns by less "
+    "than 20° may be more, and last {periods:g} periods. A note for one of three or more "
+    "objects of one publisher that come and go, and for a part of a robot if no sensor message is "
+    "in its frame. Not reported for a localiser",
     headline="{named} for {longest:span}, and back{often}",
     detail="{edge}: {wrong} at {at:moment}, {jump:m} and {turn:deg} away{others}",
     consequence="a lookup at these times gets a wrong pose",
@@ -413,7 +416,9 @@ def outlier(model: Model, limits: Limits) -> Iterator[Hit]:
             since=int(track.logs[begins[0]]),
             until=int(track.logs[ends[-1]]),
             count=len(spans),
-            severity=Severity.NOTE if model.is_minor(track) else None,
+            severity=Severity.NOTE
+            if model.is_minor(track) or track.child in model.passing
+            else None,
             fixes=(
                 *look_at(model, track.edge, *track.stamps[[before[0], first[0]]].tolist()),
                 *marker_fix(track),
@@ -449,8 +454,12 @@ def outliers(track: Track, limits: Limits) -> list[tuple[int, int]]:
     if len(places) < 3 or not (spins or (apart > limits["metres"]).any()):
         return []
     turned = track.turned(some, others)
+    speeds = apart / np.maximum(np.diff(track.sorted_stamps) / NANOSECONDS, _SHORT)
     is_far = (apart > max(limits["metres"], limits["times"] * percentile(apart, 95))) | (
         turned > max(limits["radians"], limits["times"] * percentile(turned, 95))
+    )
+    is_far |= (apart > limits["metres"]) & (
+        speeds > max(limits["speed"], limits["times"] * percentile(speeds, 95))
     )
     longest = limits["seconds"] * NANOSECONDS
     if (flips := _half_turns(apart, turned)) is not None:
@@ -458,20 +467,22 @@ def outliers(track: Track, limits: Limits) -> list[tuple[int, int]]:
         longest = max(longest, limits["periods"] * track.period)
     elif np.count_nonzero(is_far) > max(2, limits["share"] * len(apart)):
         return []
-    steps = np.flatnonzero(is_far)
     found: list[tuple[int, int]] = []
-    for out, back in zip(steps[:-1].tolist(), steps[1:].tolist(), strict=True):
-        before, after = places[out : out + 1], places[back + 1 : back + 2]
-        took = (track.stamps[after] - track.stamps[before])[0]
-        rest = track.apart(before, after)[0], track.turned(before, after)[0]
-        if (
-            back - out <= limits["samples"]
-            and took <= longest
-            and rest[0] <= limits["back"] * max(apart[out], limits["metres"])
-            and rest[1] <= limits["back"] * max(turned[out], limits["radians"])
-            and not (found and found[-1][1] > out)
-        ):
-            found.append((out + 1, back + 1))
+    for out in np.flatnonzero(is_far).tolist():
+        if found and found[-1][1] > out:
+            continue
+        later = places[out + 2 : out + 2 + int(limits["samples"])]
+        before = np.full(len(later), places[out])
+        # A jump away does not tell how well its publisher measures turns.
+        spun = turned[out] > limits["radians"]
+        rest = limits["back"] * turned[out] if spun else math.inf
+        backs = np.flatnonzero(
+            (track.stamps[later] - track.stamps[before] <= longest)
+            & (track.apart(before, later) <= limits["back"] * max(apart[out], limits["metres"]))
+            & (track.turned(before, later) <= rest)
+        )
+        if len(backs):
+            found.append((out + 1, out + 2 + int(backs[0])))
     return found
 
 

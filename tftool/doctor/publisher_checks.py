@@ -103,9 +103,10 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
     "each track alone. Tracks of a frame that hardly moves may be nearer: half of the steps and "
     "{near_changes:g} or more are {near:g} m or longer, each track has a share of {near_share:g}, "
     "and the tracks are {near_times:g} times as far apart as 95 % of the steps in them. A note "
-    "for a frame that only turns, unless one value returns again and again. A warning if the "
-    "publishers are unknown, if no frame is below this frame and no message is in it, or for a "
-    "mount whose two values differ by less than {slight:g} m and {slight_degrees:g}°",
+    "for a frame that only turns, unless one value returns again and again, and for one of three "
+    "or more objects of one publisher that come and go. A warning if the publishers are unknown, "
+    "if no frame is below this frame and no message is in it, or for a mount whose two values "
+    "differ by less than {slight:g} m and {slight_degrees:g}°",
     headline="{named} {many:has|have} two {two:sources with |}different values{seen}",
     detail="{edge}: {first} and {second}, {told}, {apart:m} and {turned:deg} apart (median), "
     "{worst:m} and {most_turned:deg} at most{also}",
