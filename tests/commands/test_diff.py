@@ -111,6 +111,33 @@ def test_spans_apart_are_said(tftool, tmp_path):
     assert tftool(*words, "--align", "start").err == ""
 
 
+def test_joints_are_compared_between_descriptions_but_not_with_a_recording(tftool, tmp_path):
+    text = (
+        '<robot name="r"><link name="map"/><link name="base"/>'
+        '<joint name="drive" type="continuous"><parent link="map"/><child link="base"/>'
+        '<origin xyz="0 0 0.5"/><axis xyz="0 1 0"/></joint></robot>'
+    )
+    (tmp_path / "a.urdf").write_text(text)
+    (tmp_path / "b.urdf").write_text(text.replace("0 0 0.5", "0 0 0.7"))
+    (tmp_path / "c.urdf").write_text(text.replace("0 1 0", "1 0 0"))
+    library.export(frames(), path=tmp_path / "run.mcap")
+    first, second, third, run = (
+        tmp_path / name for name in ("a.urdf", "b.urdf", "c.urdf", "run.mcap")
+    )
+
+    moved = tftool("diff", first, second, "--joint", "drive=0")
+    turned = tftool("diff", first, third)
+    recorded = tftool("diff", run, second)
+
+    row = "base in map moved 200 0 x 0 y 0 z +200 mm, roll 0 pitch 0 yaw 0°"
+    assert (moved.status, row in " ".join(moved.out.split())) == (1, True)
+    row = "base in map other joint 0 0 the axis is turned by 90°"
+    assert (turned.status, row in " ".join(turned.out.split())) == (1, True)
+    assert recorded.out.endswith(
+        "1 of 2 links differs by more than 1 mm or 0.1°, 1 not measured.\n"
+    )
+
+
 @pytest.mark.parametrize(
     ("words", "status", "told"),
     [

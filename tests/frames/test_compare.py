@@ -9,6 +9,7 @@ import tftool
 from tftool import Buffer, InputError, Transform, TransformStamped, UsageError, seconds
 from tftool.frames.differences import Behaviour, Change
 from tftool.geometry.conversions import quaternion_from_rpy
+from tftool.robots.robot_model import parse_robot
 
 SECOND = seconds(1)
 START = 1_700_000_000 * SECOND
@@ -150,6 +151,43 @@ def test_a_joint_of_a_description_is_no_difference_to_what_moves(tmp_path):
     assert not found
     assert found.links[0].after.kind is Behaviour.joint
     assert not tftool.diff(tftool.load_urdf(tmp_path / "robot.urdf"), tmp_path / "robot.urdf")
+
+
+ELBOW = (
+    '<robot name="r"><link name="base"/><link name="arm"/><link name="hand"/>'
+    '<joint name="slide" type="prismatic"><parent link="base"/><child link="arm"/>'
+    '<axis xyz="1 0 0"/><limit lower="0" upper="9" effort="1" velocity="1"/></joint>'
+    '<joint name="elbow" type="continuous"><parent link="arm"/><child link="hand"/>'
+    '<origin xyz="0 0 0.5"/><axis xyz="0 1 0"/></joint></robot>'
+)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "change", "note"),
+    [
+        ("0 0 0.5", "0 0 0.7", Change.pose, ""),
+        ("0 1 0", "0 0 1", Change.joint, "the axis is turned by 90°"),
+        ("0 1 0", "0 -1 0", Change.joint, "the axis is turned by 180°"),
+        ('"continuous"', '"prismatic"', Change.joint, "continuous → prismatic"),
+        (
+            '<axis xyz="0 1 0"/>',
+            '<axis xyz="0 1 0"/><mimic joint="slide" multiplier="2"/>',
+            Change.joint,
+            "independent → 2 times slide +0",
+        ),
+    ],
+)
+def test_joints_of_two_descriptions_are_compared(old, new, change, note):
+    limit = '<limit lower="0" upper="9" effort="1" velocity="1"/></joint></robot>'
+    text = ELBOW.replace("</joint></robot>", limit)
+    first, second = parse_robot(text), parse_robot(text.replace(old, new))
+
+    found = tftool.diff(first, second)
+
+    assert not tftool.diff(first, first)
+    assert changes(found) == {"hand": (change,)}
+    assert found.changed[0].note == note
+    assert found.changed[0].displacement.millimetres == pytest.approx(200 if not note else 0)
 
 
 def test_files_of_every_kind_are_compared_with_each_other(tmp_path):

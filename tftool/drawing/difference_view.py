@@ -56,6 +56,7 @@ def _table(rows: list[tuple[str, ...]], width: int | None) -> list[str]:
 def summary(differences: Differences) -> str:
     """Return a sentence with the number of transforms that differ between A and B."""
     unknown = sum(Change.unknown in one.changes for one in differences.links)
+    unsure = unknown + sum(one.displacement is None and one.is_same for one in differences.links)
     count, total = len(differences.changed) - unknown, len(differences.links)
     limit = differences.tolerance
     measures = [f"{limit.millimetres:g} mm", f"{limit.degrees:g}°"]
@@ -63,12 +64,9 @@ def summary(differences: Differences) -> str:
         measures.append(f"{limit.rate_percent:g} % of the rate")
     links = "link" if total == 1 else "links"
     if not count:
-        compared = (
-            f"{total - unknown} of {total} {links} compared" if unknown else f"{total} {links}"
-        )
-        same = f", the same within {' and '.join(measures)}" if unknown < total else ""
+        compared = f"{total - unsure} of {total} {links} compared" if unsure else f"{total} {links}"
+        same = f", the same within {' and '.join(measures)}" if unsure < total else ""
         return f"{compared}{same}."
-    unsure = unknown + sum(one.displacement is None and one.is_same for one in differences.links)
     beside = f", {unsure} not measured" if unsure else ""
     differ = "differs" if count == 1 else "differ"
     return f"{count} of {total} {links} {differ} by more than {' or '.join(measures)}{beside}."
@@ -139,7 +137,7 @@ def _detail(one: LinkDifference, start: Stamp) -> str:
     words = []
     apart = one.displacement
     if apart is not None and apart.moved_mm is not None and apart.turned_deg is not None:
-        if not one.is_same:
+        if not one.is_same and (Change.pose in one.changes or not one.note):
             place = " ".join(
                 f"{axis} {_signed(value)}"
                 for axis, value in zip("xyz", apart.moved_mm, strict=True)

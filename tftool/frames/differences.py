@@ -1,8 +1,8 @@
 """Differences of two sets of frames, A and B: frames added, removed, reattached or displaced."""
 
 import os
-from collections.abc import Set as AbstractSet
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Final, TypeAlias
 
@@ -19,6 +19,7 @@ from tftool.geometry.conversions import rpy_from_quaternion
 from tftool.geometry.rigid import Transform
 from tftool.recordings.find import Kind, find
 from tftool.recordings.recording import Recording, open_recording
+from tftool.robots.description import RobotJoint
 from tftool.robots.robot_model import Robot, load_urdf
 from tftool.robots.static_publishers import StaticFrames, load_statics
 
@@ -48,6 +49,9 @@ class Change(StrEnum):
 
     pose = "pose"
     """Pose differs by more than the tolerance."""
+
+    joint = "other joint"
+    """Type, axis or mimic rule of the joint differs between two descriptions."""
 
     rate = "rate"
     unknown = "not compared"
@@ -79,13 +83,13 @@ class Side:
         name: Name of the set in messages.
         buffer: The frames.
         start: First stamp, nanoseconds.
-        joints: Frames whose pose depends on a joint of a description.
+        joints: Movable joints of a description, by the frame whose pose depends on the joint.
     """
 
     name: str
     buffer: Buffer
     start: Stamp = 0
-    joints: AbstractSet[str] = frozenset()
+    joints: Mapping[str, RobotJoint] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,7 +101,8 @@ class LinkState:
         kind: Static, moving, or depending on a joint.
         count: Number of samples.
         rate: Rate in hertz, from the median period; None if static.
-        pose: Pose of the child in the parent, if static; else None.
+        pose: Pose of the child in the parent, if static, or at position zero of its joint; else
+            None.
     """
 
     parent: str
@@ -118,8 +123,8 @@ class Displacement:
         worst_degrees: Largest angle.
         worst_at: Stamp in A of the largest difference relative to the tolerance; None if static.
         moments: Number of times at which the poses were compared.
-        moved_mm: Displacement x y z along the parent axes in A, if static in both sets; else None.
-        turned_deg: Rotation from A to B as roll pitch yaw, if static in both sets; else None.
+        moved_mm: Displacement x y z along the parent axes in A; None if the frame moves in a set.
+        turned_deg: Rotation from A to B as roll pitch yaw; None if the frame moves in a set.
     """
 
     millimetres: float
@@ -205,7 +210,8 @@ def compare(
 ) -> Differences:
     """Compare two sets of frames, frame by frame.
 
-    Static poses are compared directly. Frames that move in both sets are compared at common stamps.
+    Static poses are compared directly, and movable joints of two descriptions by their origins and
+    axes. Frames that move in both sets are compared at common stamps.
     Without common stamps, the second set is interpolated at the stamps of the first set. If one set
     has stamps since 1970 and the other has simulation times, times count from each set's start.
 
@@ -271,11 +277,18 @@ def _compared(
         return LinkDifference(child, (change,), before, after)
     changes = []
     offset, note = None, ""
+    old_joint, new_joint = first.joints.get(child), second.joints.get(child)
     if before.parent != after.parent:
         changes.append(Change.reparented)
     if Behaviour.static in (before.kind, after.kind) and before.kind is not after.kind:
         changes.append(Change.kind)
-    if before.pose is not None and after.pose is not None:
+    if old_joint is not None and new_joint is not None:
+        note = _joint_changes(old_joint, new_joint, tolerance)
+        if note:
+            changes.append(Change.joint)
+        if before.parent == after.parent:
+            offset = _static_offset(second.buffer, child, before, after)
+    elif before.kind is Behaviour.static and after.kind is Behaviour.static:
         offset = _static_offset(second.buffer, child, before, after)
     elif Behaviour.joint in (before.kind, after.kind):
         note = "the pose depends on a joint position, which is unknown"
@@ -302,14 +315,36 @@ def _compared(
 def _state(side: Side, held: SampleColumns) -> LinkState:
     parent = str(held.parents[-1])
     if held.is_static:
-        kind = Behaviour.joint if held.frame in side.joints else Behaviour.static
+        joint = side.joints.get(held.frame)
+        if joint is not None:
+            return LinkState(parent, Behaviour.joint, len(held), None, joint.origin)
         row = held.poses[-1].tolist()
-        pose = Transform(row[:3], row[3:]) if kind is Behaviour.static else None
-        return LinkState(parent, kind, len(held), None, pose)
+        return LinkState(parent, Behaviour.static, len(held), None, Transform(row[:3], row[3:]))
     periods = np.diff(held.stamps)
     periods = periods[periods > 0]
     rate = 1e9 / float(np.median(periods)) if len(periods) else None
     return LinkState(parent, Behaviour.moving, len(held), rate, None)
+
+
+def _joint_changes(old: RobotJoint, new: RobotJoint, tolerance: Allowance) -> str:
+    """Return what differs between two joints besides their origins; "" if nothing does."""
+    words = []
+    if old.type != new.type:
+        words.append(f"{old.type} → {new.type}")
+    cross, dot = np.linalg.norm(np.cross(old.axis, new.axis)), np.dot(old.axis, new.axis)
+    degrees = float(np.degrees(np.arctan2(cross, dot)))
+    if degrees > tolerance.degrees:
+        words.append(f"the axis is turned by {degrees:.4g}°")
+    if old.mimic != new.mimic:
+        words.append(f"{_mimic(old)} → {_mimic(new)}")
+    return "; ".join(words)
+
+
+def _mimic(joint: RobotJoint) -> str:
+    rule = joint.mimic
+    if rule is None:
+        return "independent"
+    return f"{rule.multiplier:g} times {rule.joint} {rule.offset:+g}"
 
 
 def _static_offset(
@@ -476,7 +511,8 @@ def side_of(frames: Comparable, name: str) -> Side:
     if isinstance(frames, str | os.PathLike):
         return _opened(os.fspath(frames))
     if isinstance(frames, Frames):
-        return Side(frames.label, frames.buffer, frames.span[0], frames.moving or frozenset())
+        joints = joints_of(frames.robot) if frames.moving and frames.robot else {}
+        return Side(frames.label, frames.buffer, frames.span[0], joints)
     if isinstance(frames, Buffer):
         stamps = [int(one.stamps[0]) for one in map(frames.samples, frames.frames()) if len(one)]
         return Side(name, frames, min((one for one in stamps if one), default=0))
@@ -485,9 +521,9 @@ def side_of(frames: Comparable, name: str) -> Side:
     return Side(frames.name, frames.buffer, frames.start)
 
 
-def joints_of(robot: Robot) -> frozenset[str]:
-    """Return the names of a robot's links whose pose depends on the position of a joint."""
-    return frozenset(one.child for one in robot.joints.values() if one.moves)
+def joints_of(robot: Robot) -> dict[str, RobotJoint]:
+    """Return a robot's movable joints, by the link whose pose depends on the joint."""
+    return {one.child: one for one in robot.joints.values() if one.moves}
 
 
 def _opened(path: str) -> Side:
