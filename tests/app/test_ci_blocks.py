@@ -141,6 +141,18 @@ def test_every_hook_runs_a_command():
             LAUNCH.format(height="0,2"),
         ),
         (
+            "tftool-descriptions",
+            "urdf/r.urdf",
+            URDF.format(child="laser"),
+            URDF.format(child="laser").replace("</joint>", '<origin rpy="0 0 90"/></joint>'),
+        ),
+        (
+            "tftool-statics",
+            "launch/mounts.launch.py",
+            LAUNCH.format(height="0.2"),
+            LAUNCH.format(height="0.2").replace("'0', 'a'", "'90', 'a'"),
+        ),
+        (
             "tftool-scenarios",
             "scenarios/a.yaml",
             "duration: 1 s\nnodes: [static: {parent: a, child: b}]\nexpect:\n"

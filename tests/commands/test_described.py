@@ -62,6 +62,18 @@ def test_info_shows_joints_with_their_limits(tftool, robot):
     assert "-1 rad … 1 rad" in turn
 
 
+def test_info_fails_for_a_mistake_with_which_the_description_is_read(tftool, robot):
+    robot.write_text(ROBOT.replace('lower="-1"', 'lower="9"'))
+    fault = "post.urdf:5:12: joint 'turn' has no valid position: its lower limit, 9, is above"
+
+    one, two = tftool("info", robot), tftool("info", robot, robot)
+
+    assert (one.status, two.status) == (3, 3)
+    assert fault in one.out
+    assert two.err.count(fault) == 2
+    assert tftool("tree", robot).status == 0
+
+
 def test_info_for_programs_holds_the_same(tftool, robot):
     told = json.loads(tftool("info", str(robot), "--json").out)
 

@@ -102,6 +102,16 @@ def test_what_cannot_be_read_is_said(tmp_path, name, text, told):
         load_statics(path)
 
 
+def test_degrees_in_a_launch_file_are_noted(tmp_path):
+    path = tmp_path / "a.sh"
+    path.write_text("static_transform_publisher 0 0 0 90 0 0 a b\n")
+
+    found = load_statics(path)
+
+    assert len(found.links) == 1
+    assert "a.sh:1: Angles are radians, and 90 is more than a full turn" in found.notes[0]
+
+
 def test_a_scenario_may_speak_of_the_publisher(tmp_path):
     path = tmp_path / "a.yaml"
     path.write_text("about: as static_transform_publisher does\nduration: 1 s\nnodes: []\n")

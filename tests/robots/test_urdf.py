@@ -236,7 +236,23 @@ def test_limits_that_leave_no_room_are_noted_and_read():
     arm = parse(ARM.replace('lower="-1', 'lower="9'))
 
     assert "'shoulder' has no valid position: its lower limit" in arm.notes[0]
+    assert re.match(r"\S*:\d+:\d+: ", arm.notes[0])
+    assert arm.mistakes == arm.notes
     assert parse(ARM).notes == ()
+
+
+@pytest.mark.parametrize(("limit", "turns"), [("-90", "14"), ("180", "29"), ("360", "57")])
+def test_limits_in_degrees_are_noted_and_read(limit, turns):
+    arm = parse(ARM.replace('lower="-1', f'lower="{limit}'))
+
+    told = [note for note in arm.notes if "radians" in note]
+    assert len(told) == 1
+    assert f"the limit {limit} of joint 'shoulder' is {turns} turns" in told[0]
+
+
+@pytest.mark.parametrize("limit", ["-6.3", "-12.5", "-31.4", "-1e16"])
+def test_limits_of_several_turns_are_no_mistake(limit):
+    assert parse(ARM.replace('lower="-1', f'lower="{limit}')).mistakes == ()
 
 
 def test_degrees_where_radians_are_wanted_are_noted_and_read():

@@ -189,6 +189,7 @@ class RobotDescription:
         links: Links by name, in the order of the file.
         joints: Joints by name, in the order of the file.
         notes: Sentences about faults that do not prevent reading.
+        mistakes: The sentences of `notes` about mistakes in the file, each with line and column.
         text: Text of the description, with xacro expanded.
     """
 
@@ -197,4 +198,5 @@ class RobotDescription:
     links: Mapping[str, RobotLink]
     joints: Mapping[str, RobotJoint]
     notes: tuple[str, ...] = ()
+    mistakes: tuple[str, ...] = ()
     text: str = field(default="", repr=False)

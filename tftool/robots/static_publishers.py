@@ -17,7 +17,7 @@ from tftool.base.named_files import read_named
 from tftool.base.stamps import Stamp
 from tftool.buffer.buffer import NO_LIMIT, Buffer
 from tftool.buffer.sample import TransformStamped
-from tftool.geometry.notation.static_arguments import StaticArguments, of_line
+from tftool.geometry.notation.static_arguments import StaticArguments, beyond_a_turn, of_line
 
 PUBLISHER: Final = "static_transform_publisher"
 
@@ -74,7 +74,7 @@ def load_statics(path: Path, name: str | None = None) -> StaticFrames:
 
 
 Remark = tuple[int, str]
-"""Line of a publisher that was skipped, and a sentence about it."""
+"""Line of a publisher that was skipped or has a mistake, and a sentence about it."""
 
 
 def read_statics(path: Path, name: str) -> tuple[list[StaticArguments], list[Remark], list[Remark]]:
@@ -96,15 +96,16 @@ def read_statics(path: Path, name: str) -> tuple[list[StaticArguments], list[Rem
     for line, words in _publishers(start if start.startswith("<") else text, name):
         try:
             if words is None:
-                computed.append(_remark(name, line, "its arguments are computed at run time"))
+                computed.append(_ignored(name, line, "its arguments are computed at run time"))
             elif (said := of_line(words)) is not None:
                 links.append(said)
+                mistakes += [(line, f"{name}:{line}: {why}") for why in beyond_a_turn(said)]
         except UsageError as error:
-            mistakes.append(_remark(name, line, str(error)))
+            mistakes.append(_ignored(name, line, str(error)))
     return links, mistakes, computed
 
 
-def _remark(name: str, line: int, why: str) -> Remark:
+def _ignored(name: str, line: int, why: str) -> Remark:
     return line, f"{name}:{line}: a {PUBLISHER} was ignored: {why}"
 
 

@@ -10,7 +10,7 @@ import contextlib
 import math
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import NoReturn, TypeVar
 from xml.parsers import expat
@@ -43,6 +43,8 @@ T = TypeVar("T")
 
 LARGEST = 64 * 1024 * 1024
 """Maximum size of a description, bytes."""
+
+RADIANS = "URDF uses radians, and 90 degrees are 1.5708"
 
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 _DECLARATION = re.compile(r"\s*<\?xml\b[^<>]*>")
@@ -206,7 +208,7 @@ class _Reader:
         self.name = name
         self.lines = text.split("\n")
         self.mistakes: list[Mistake] = []
-        self.notes: list[str] = []
+        self.tolerated: list[Mistake] = []
 
     def read(self) -> RobotDescription:
         robot = self._parsed()
@@ -231,18 +233,21 @@ class _Reader:
         if not links:
             self._note(robot, "there is no link")
         root = self._tree(robot, links, joints, places)
-        self._mimics(joints)
+        self._mimics(joints, places)
         if self.mistakes:
             ordered = sorted(self.mistakes, key=lambda one: (one.line, one.column))
             raise DescriptionError(self.name, ordered)
+        tolerated = sorted(self.tolerated, key=lambda one: (one.line, one.column))
+        notes = [f"{one.file}:{one.line}:{one.column}: {one.text}" for one in tolerated]
+        mistakes = tuple(notes)
         loose = [joint.child for joint in joints.values() if joint.type == "floating"]
         if loose:
             shown = ", ".join(loose[:3]) + (" …" if len(loose) > 3 else "")
-            self.notes.append(
+            notes.append(
                 "floating joints are left out, as by robot_state_publisher, so these links have no "
                 f"pose in their parents: {shown}"
             )
-        return RobotDescription(name, root, links, joints, tuple(self.notes), self.text)
+        return RobotDescription(name, root, links, joints, tuple(notes), mistakes, self.text)
 
     # XML
 
@@ -276,14 +281,22 @@ class _Reader:
         return roots[0]
 
     def _note(self, element: _Element, text: str, attribute: str = "") -> None:
+        """Add a mistake, after which the description is refused."""
+        self.mistakes.append(self._mistake(element, text, attribute))
+
+    def _tolerate(self, element: _Element, text: str, attribute: str = "") -> None:
+        """Add a mistake with which the description is read all the same."""
+        self.tolerated.append(self._mistake(element, text, attribute))
+
+    def _mistake(self, element: _Element, text: str, attribute: str) -> Mistake:
         line, column, width = element.line, element.column, len(element.tag) + 1
         if attribute:
             line, column, width = self._attribute(element, attribute)
-        self.mistakes.append(Mistake.at(self.name, self.lines, line, column, text, width=width))
+        return Mistake.at(self.name, self.lines, line, column, text, width=width)
 
     @contextlib.contextmanager
     def _left_out(self) -> Iterator[None]:
-        """Turn mistakes in a `with` block into notes, because the block's data affects no frame.
+        """Tolerate mistakes in a `with` block, because the block's data affects no frame.
 
         ROS's reader continues after mistakes in a link's appearance or mass, so robots run with
         such files.
@@ -293,9 +306,7 @@ class _Reader:
             with contextlib.suppress(_Unreadable):
                 yield
         finally:
-            self.notes += [
-                f"{one.file}:{one.line}:{one.column}: {one.text}; left out" for one in self.mistakes
-            ]
+            self.tolerated += [replace(one, text=f"{one.text}; left out") for one in self.mistakes]
             self.mistakes = before
 
     def _attribute(self, element: _Element, attribute: str) -> tuple[int, int, int]:
@@ -358,9 +369,10 @@ class _Reader:
         xyz = self._numbers(origin, "xyz", 3, "0 0 0")
         roll, pitch, yaw = self._numbers(origin, "rpy", 3, "0 0 0")
         if max(map(abs, (roll, pitch, yaw))) > math.tau:
-            self.notes.append(
-                f"line {origin.line + 1}: rpy {roll:g} {pitch:g} {yaw:g} is more than a whole "
-                "turn: URDF uses radians, and 90 degrees are 1.5708"
+            self._tolerate(
+                origin,
+                f"rpy {roll:g} {pitch:g} {yaw:g} is more than a whole turn: {RADIANS}",
+                "rpy",
             )
         return Transform(xyz, quaternion_from_rpy(roll, pitch, yaw))
 
@@ -525,9 +537,20 @@ class _Reader:
             return None
         lower, upper = self._number(element, "lower", "0"), self._number(element, "upper", "0")
         if kind in LIMITED_TYPES and lower > upper:
-            self.notes.append(
+            self._tolerate(
+                element,
                 f"joint '{name}' has no valid position: its lower limit, {lower:g}, is above its "
-                f"upper limit, {upper:g}"
+                f"upper limit, {upper:g}",
+                "lower",
+            )
+        if kind == "revolute" and (
+            in_degrees := [one for one in (lower, upper) if _is_degrees(one)]
+        ):
+            self._tolerate(
+                element,
+                f"the limit {in_degrees[0]:g} of joint '{name}' is "
+                f"{abs(in_degrees[0]) / math.tau:.0f} turns: {RADIANS}",
+                "upper" if in_degrees[0] == upper else "lower",
             )
         return JointLimit(
             lower,
@@ -599,7 +622,7 @@ class _Reader:
             "link",
         )
 
-    def _mimics(self, joints: Mapping[str, RobotJoint]) -> None:
+    def _mimics(self, joints: Mapping[str, RobotJoint], places: Mapping[str, _Element]) -> None:
         for joint in joints.values():
             seen = [joint.name]
             leader = joint
@@ -607,20 +630,27 @@ class _Reader:
                 name = leader.mimic.joint
                 if name not in joints:
                     if leader is joint:
-                        self.notes.append(
+                        self._tolerate(
+                            _end(places[joint.name], "mimic"),
                             f"joint '{joint.name}' mimics '{name}', but there is no such joint: "
-                            f"'{joint.name}' is treated as an independent joint"
+                            f"'{joint.name}' is treated as an independent joint",
                         )
                     break
                 if name in seen:
                     if name == joint.name:
-                        self.notes.append(
+                        self._tolerate(
+                            _end(places[joint.name], "mimic"),
                             f"joint '{joint.name}' mimics itself through {_list(seen)}: "
-                            f"'{joint.name}' is treated as an independent joint"
+                            f"'{joint.name}' is treated as an independent joint",
                         )
                     break
                 seen.append(name)
                 leader = joints[name]
+
+
+def _is_degrees(limit: float) -> bool:
+    """Return whether the limit of a revolute joint looks like degrees: 30 to 360 in steps of 5."""
+    return 30.0 <= abs(limit) <= 360.0 and limit % 5.0 == 0.0
 
 
 class _Doctype(Exception):

@@ -11,9 +11,10 @@ class InfoOptions(Command, recordings=True, descriptions=True, urdf=True):
     and its parent) with its rate, its publisher (the node in ROS 1 bags, else the topic), and its
     delay from stamp to reception; damage, unusual facts, and the doctor's findings. For a robot
     description: joints with limits and mimics, the root, masses if given. For several descriptions
-    and launch files: the number of transforms of each, and every mistake. For several recordings: a
-    line each; with -o, a row each in a file. On a narrow terminal columns are left out: 'tftool
-    info run.mcap | cat' prints them all.
+    and launch files: the number of transforms of each, and every mistake. The exit status is 3 if a
+    description or launch file has a mistake, even one with which other commands read the file. For
+    several recordings: a line each; with -o, a row each in a file. On a narrow terminal columns are
+    left out: 'tftool info run.mcap | cat' prints them all.
 
     tftool info run.mcap
     tftool info robot.urdf

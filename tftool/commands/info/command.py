@@ -72,7 +72,8 @@ def _list_texts(connection: Connection, paths: list[str], *, for_programs: bool)
         mistakes: list[str] = []
         try:
             if kind is Kind.DESCRIPTION:
-                number = len(load_urdf(path, connection.robot.arguments).joints)
+                robot = load_urdf(path, connection.robot.arguments)
+                number, mistakes = len(robot.joints), [*robot.description.mistakes]
             else:
                 statics, wrong, _ = read_statics(path, name)
                 number, mistakes = len(statics), [text for _, text in wrong]
@@ -94,8 +95,7 @@ def _show(connection: Connection, path: str, name: str, *, for_programs: bool) -
     """Print everything about one recording or robot description."""
     found = named(path)
     if found.kind is Kind.DESCRIPTION:
-        _show_robot(connection, found.paths[0], name, for_programs=for_programs)
-        return ExitStatus.DONE
+        return _show_robot(connection, found.paths[0], name, for_programs=for_programs)
     word = visible(name)
     if found.kind is Kind.SCENARIO:
         sentence = (
@@ -134,7 +134,7 @@ def _print(recording: Recording, name: str, *, has_urdf: bool) -> None:
     sys.stdout.write(f"\n{told}\n")
 
 
-def _show_robot(connection: Connection, path: Path, name: str, *, for_programs: bool) -> None:
+def _show_robot(connection: Connection, path: Path, name: str, *, for_programs: bool) -> ExitStatus:
     DescriptionOptions(connection.robot.joints, urdf=connection.robot.urdf).refuse(
         "'info' shows joints at rest"
     )
@@ -143,3 +143,4 @@ def _show_robot(connection: Connection, path: Path, name: str, *, for_programs: 
         write_json(recording_view.robot_as_object(name, robot))
     else:
         sys.stdout.write(recording_view.robot_as_text(name, robot, line_width()))
+    return ExitStatus.UNREADABLE if robot.description.mistakes else ExitStatus.DONE

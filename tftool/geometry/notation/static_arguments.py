@@ -239,6 +239,16 @@ def _refusal(tf2_text: str, remedy: str) -> UsageError:
     return UsageError(f"error parsing command line arguments: {tf2_text}. {remedy}")
 
 
+def beyond_a_turn(arguments: StaticArguments) -> list[str]:
+    """Return a sentence about an angle of more than a full turn, which is probably in degrees."""
+    return [
+        f"Angles are radians, and {angle:g} is more than a full turn; "
+        f"{angle:g} degrees would be {math.radians(angle):.6g}."
+        for angle in arguments.angles
+        if abs(angle) > 2.0 * math.pi
+    ][:1]
+
+
 def advice(arguments: StaticArguments) -> list[str]:
     """Return a sentence for each probable mistake in the arguments."""
     sentences = []
@@ -252,12 +262,7 @@ def advice(arguments: StaticArguments) -> list[str]:
             f"write the angle as the fourth number: {numbers} {roll:g} 0 0 "
             f"{arguments.parent} {arguments.child}"
         )
-    beyond = [angle for angle in arguments.angles if abs(angle) > 2.0 * math.pi]
-    if beyond:
-        sentences.append(
-            f"Angles are radians, and {beyond[0]:g} is more than a full turn; "
-            f"{beyond[0]:g} degrees would be {math.radians(beyond[0]):.6g}."
-        )
+    sentences += beyond_a_turn(arguments)
     length = math.hypot(*arguments.transform.rotation)
     if arguments.rotation == "quaternion" and abs(length - 1.0) > 0.01:
         sentences.append(f"The quaternion has length {length:.4g}, not 1; receivers scale it.")
