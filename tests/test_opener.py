@@ -112,6 +112,14 @@ def test_python_never_hosts():
         library.open()
 
 
+@pytest.mark.parametrize(
+    ("given", "meant"), [("untill", "until"), ("tf_topic", "tf_topics"), ("listn", "listen")]
+)
+def test_an_unknown_keyword_is_refused_with_the_known_one(given, meant):
+    with pytest.raises(TypeError, match=f"argument '{given}'; did you mean '{meant}'"):
+        library.open("turtles", **{given: 12})
+
+
 def test_it_works_inside_a_running_loop():
     async def cell():
         with library.open("turtles", until=2) as frames:

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tftool.base.errors import InputError, UsageError
-from tftool.base.plain_text import visible
+from tftool.base.plain_text import did_you_mean, visible
 from tftool.base.stamps import Duration, seconds
 from tftool.frames.frames import Frames
 from tftool.frames.source_options import At, DescriptionOptions, RecordingOptions
@@ -25,7 +25,7 @@ from tftool.recordings.poses.pose_options import (
     pose_options,
 )
 from tftool.scenario import builtin
-from tftool.world.link.link_options import REACHES, reach_at, read_reach
+from tftool.world.link.link_options import REACH_OPTIONS, REACHES, reach_at, read_reach
 
 if TYPE_CHECKING:
     from tftool.recordings.contract import Progress
@@ -100,7 +100,12 @@ def open_frames(
         InputError: If `place` names no source, or the source cannot be read.
         LinkError: If there is no session to listen to.
         UsageError: If an option does not fit the source, or an optional package is not installed.
+        TypeError: If there is no such keyword.
     """
+    for name in reach:
+        if name not in REACH_OPTIONS:
+            near = did_you_mean(name, {*(open_frames.__kwdefaults__ or ()), *REACH_OPTIONS})
+            raise TypeError(f"open() got an unexpected keyword argument '{name}'{near}")
     poses = PoseOptions(frames, pose_rate, pose_format, inverted, axes)
     if poses != PoseOptions():
         with pose_options(ChosenOptions(poses)):

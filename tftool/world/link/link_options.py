@@ -31,6 +31,10 @@ REACHES: Final = tuple(_declared(place) for place in MIDDLEWARES)
 _OWNERS: Final = {name: one for one in REACHES for name in one.OPTIONS}
 
 
+REACH_OPTIONS: Final = frozenset(_OWNERS)
+"""Names of the parameters of all middlewares' options."""
+
+
 def read_reach(given: Mapping[str, Any]) -> Reach:
     """Create the `Reach` (networks that this process may use) from the given options.
 
