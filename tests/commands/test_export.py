@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import yaml
 from scipy.spatial.transform import Rotation
 
 import tftool as library
@@ -324,6 +325,21 @@ def test_launch_files_are_played_by_launch(tftool, run, tmp_path):
 
         assert result.status == 0
         assert "static_transform_publisher-2" in result.out + result.err
+
+
+@pytest.mark.parametrize("end", ["urdf", "launch.py", "launch.xml", "launch.yaml", "sh"])
+def test_names_beyond_two_bytes_are_written_whole(tftool, tmp_path, end):
+    names = "m🐢", "straße"
+    buffer = Buffer()
+    buffer.set_transform_static(TransformStamped(0, *names, Transform()))
+    path = tmp_path / f"statics.{end}"
+    library.export(buffer, path=path)
+
+    with library.open(path) as frames:
+        assert set(frames.buffer.frames()) == set(names)
+    if end == "launch.yaml":
+        (node,) = yaml.safe_load(path.read_text(encoding="utf-8"))["launch"]
+        assert f"--frame-id {names[0]} --child-frame-id {names[1]}" in node["node"]["args"]
 
 
 @pytest.mark.parametrize("option", [(), ("--foxglove",)])

@@ -175,15 +175,21 @@ def launch_yaml(links: Sequence[FixedLink]) -> str:
             "      pkg: tf2_ros",
             f"      exec: {PUBLISHER}",
             f"      name: {name}",
-            f"      args: {json.dumps(_plain(one))}",
+            f"      args: {_quoted(_plain(one))}",
         ]
     return "\n".join([*lines, ""])
 
 
 def _listed(words: Sequence[str]) -> list[str]:
     """Return lines of Python code for a list of options, each line with an option and its value."""
-    texts = [json.dumps(word) for word in words]
+    texts = [_quoted(word) for word in words]
     return [f"{name}, {value}" for name, value in zip(texts[::2], texts[1::2], strict=True)]
+
+
+def _quoted(text: str) -> str:
+    """Return a text in quotes and in ASCII, as Python and YAML read it."""
+    # JSON's own escapes write a character beyond U+FFFF as two, which Python and YAML do not join.
+    return json.dumps(text, ensure_ascii=False).encode("ascii", "backslashreplace").decode()
 
 
 def _words(link: FixedLink) -> list[str]:
