@@ -452,7 +452,7 @@ def _key(info: FrameInfo, order: TreeOrder) -> tuple[object, ...]:
 
 def _wrong(branch: Branch, marks: Mapping[str, Sequence[str]]) -> str:
     if branch.closes_loop:
-        return f"a loop: its parent is {visible(branch.info.parent or '-')}"
+        return f"a loop: parent is {visible(branch.info.parent or '-')}"
     ids = marks.get(branch.info.frame, ())
     if not ids:
         return ""
