@@ -226,3 +226,98 @@ def test_constants_that_ros_1_dates_ahead_do_not_tell_a_shifted_clock():
     shift = Model(made.evidence()).shift
     assert shift is not None
     assert shift.by == seconds(7e7) + seconds(0.002)
+
+
+def test_only_topics_with_messages_before_and_after_a_gap_have_the_same_gap():
+    made = Robot()
+    made.moving("world", "drone", without=(3.0, 4.5))
+    made.moving("world", "drone", begin=8.0, end=12.0)
+    for topic, begins, ends in (
+        ("/pose", (0.0, 4.5), (3.0, 8.0)),
+        ("/state", (0.1,), (0.2,)),
+        ("/ended", (0.0,), (3.0,)),
+    ):
+        for begin, end in zip(begins, ends, strict=True):
+            made.hears(topic, "world", 10.0, "geometry_msgs/PoseStamped", begin=begin, end=end)
+    assert found(made, "gap").evidence[0].endswith("; at the same time: /pose")
+
+
+@pytest.mark.parametrize(("hz", "told"), [(50.0, True), (5.0, False)])
+def test_empty_messages_in_a_gap_show_that_the_publisher_went_on(hz, told):
+    made = Robot()
+    made.moving("world", "drone", without=(3.0, 4.5), node="/vicon")
+    for tick in range(round(1.4 * hz)):
+        made.messages.append((made.log(3.05 + tick / hz), 0))
+    finding = found(made, "gap")
+    assert ("; its publisher sent 70 messages without a transform" in finding.evidence[0]) is told
+    assert ("went on, without a pose" in finding.fixes[0].text) is told
+
+
+def test_a_topic_with_nearly_all_holes_of_an_edge_is_named():
+    made = Robot()
+    for tick in range(300):
+        if tick % 11:
+            made.sent("imu", "sonar", 0.1 * tick, (0.0, 0.0, 0.0, *turned(0.5 * tick)))
+            made.hears(
+                "/imu", "imu", kind="sensor_msgs/Imu", begin=0.1 * tick, end=0.1 * tick + 0.1
+            )
+    made.hears("/image", "imu", kind="sensor_msgs/Image", end=30.0)
+    # A topic as slow as the holes are long has no messages in them by chance.
+    made.hears("/status", "imu", 1.0, "sensor_msgs/Imu", begin=0.55, end=30.55)
+    assert found(made, "gap").evidence[0].endswith("; at the same time: /imu")
+
+
+def jumps_back_after(pause: float, *, resumes: bool = False) -> Robot:
+    """Return a robot that is silent before its time jumps back, except for one message."""
+    made = Robot()
+    made.hears("/map", "odom", end=4.0)
+    made.moving("odom", "base_link", end=4.0)
+    made.hears("/map", "odom", begin=4.0 + pause, end=4.05 + pause)
+    again = made.start
+    for tick in range(200):
+        at, stamp = 4.1 + pause + 0.02 * tick, seconds(again + 0.02 * tick)
+        made.sent("odom", "base_link", at, stamp=stamp)
+        made.heard["/map"][1].append((stamp, made.log(at), "odom"))
+    if resumes:
+        made.hears("/scan", "base_link", begin=0.0, end=4.0 + pause)
+    return made
+
+
+@pytest.mark.parametrize("resumes", [False, True])
+def test_a_pause_of_everything_before_a_jump_is_no_end_of_a_transform(resumes):
+    made = jumps_back_after(100.0, resumes=resumes)
+    assert ("edge-stopped" in ids(made, notes=True)) is resumes
+    told = "no message with a header arrived for 100.1"
+    assert (told in found(made, "time-jump-back").evidence[0]) is not resumes
+
+
+@pytest.mark.parametrize(("at", "told"), [(5.5, True), (3.0, False)])
+def test_new_static_transforms_in_an_outage_show_that_programs_were_started_again(at, told):
+    made = Robot()
+    made.static("base_link", "laser")
+    for begin, end in ((0.0, 4.0), (7.0, 12.0)):
+        made.moving("odom", "base_link", begin=begin, end=end)
+        made.hears("/scan", "laser", begin=begin, end=end)
+    made.static("base_link", "laser", at=at)
+    finding = found(made, "outage")
+    assert ("/tf_static was sent again, with a new stamp" in finding.evidence[0]) is told
+    assert ("network" in finding.fixes[0].text) is not told
+
+
+@pytest.mark.parametrize(("hz", "told"), [(50.0, 1), (0.0, 0)])
+def test_two_sources_for_a_short_time_are_told_if_more_samples_come(hz, told):
+    made = Robot()
+    made.static("base_link", "laser")
+    for tick in range(3000):
+        at = 0.02 * tick
+        brief = 30.0 < at < 31.2
+        # Without a second source, the pose of the one source flickers.
+        x = 0.6 * (brief and not hz and tick % 2)
+        made.sent("map", "base_link", at, (0.3 * at + x, 0.0, 0.0, *NO_TURN))
+        if brief and hz:
+            made.sent("map", "base_link", at + 0.008, (0.3 * at + 0.6, 0.4, 0.0, *NO_TURN))
+    assert ids(made).count("publisher-conflict") == told
+    if told:
+        finding = found(made, "publisher-conflict")
+        assert "only for 1.18 s from" in finding.evidence[0]
+        assert "an earlier start" in finding.fixes[0].text

@@ -27,6 +27,9 @@ _BOTH = 0.05
 _ONE_CLOCK = seconds(0.05)
 """Maximum difference between two offsets, nanoseconds, that belong to one clock."""
 
+COUNTS_FROM_0 = "a clock that counts from 0 (a simulation, or a computer whose clock was never set)"
+"""Name of a clock with small stamps, if no /clock was recorded."""
+
 CONSTANTS_AHEAD = seconds(1)
 """Maximum time by which ROS 1 may stamp static frames ahead; robot_state_publisher uses 0.5 s."""
 
@@ -47,7 +50,7 @@ CONSTANTS_AHEAD = seconds(1)
     causes=(
         "one node without use_sim_time",
         "simulated time set on a real robot",
-        "a computer without a clock of its own, which counts from 1970",
+        "a computer without a clock of its own, which counts from 0",
         "a real sensor on a simulated robot",
     ),
     links=threads("ANYbotics/elevation_mapping#122", "iRobotEducation/create3_sim#203"),
@@ -74,11 +77,8 @@ def clock_mixture(model: Model, limits: Limits) -> Iterator[Hit]:
     names = ["the simulation's clock", "the wall clock"]
     fix = Fix(model.words["sim_time"].format(setting=setting))
     if model.evidence.lacks_clock:
-        names[0] = "a clock that counts from 1970"
-        fix = Fix(
-            "no /clock was recorded: a simulation, or a computer whose clock was never set; "
-            "{which_clock}"
-        )
+        names[0] = COUNTS_FROM_0
+        fix = Fix("no /clock was recorded; {which_clock}")
     odd_clock, usual_clock = names if sim_is_odd else names[::-1]
     so, severity = "no lookup across the two clocks can succeed", None
     harmless = [one for one in heards if _is_single(one) or model.rests(one.frame)]

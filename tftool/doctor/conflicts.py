@@ -10,7 +10,7 @@ from tftool.base.stamps import CACHE_TIME, NANOSECONDS
 from tftool.doctor.findings import Confidence, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_stream import Mask, Places, Track, last_part
-from tftool.doctor.wording import several, span
+from tftool.doctor.wording import moment, several, span
 from tftool.geometry.quaternions import angle_between
 from tftool.geometry.rigid_arrays import (
     Floats,
@@ -246,6 +246,63 @@ def unnamed_conflict(track: Track, limits: Limits) -> Hit | None:
     leaves = jumps >= limits["reach"] + limits["speed"] * np.minimum(np.diff(times), 0.2)
     if np.count_nonzero(leaves) < limits["changes"]:
         return None
+    if (owned := _two_motions(track, places, limits)) is not None:
+        return _conflict(track, ("A", "B"), *owned, Confidence.LIKELY)
+    return _brief_conflict(track, places, np.flatnonzero(leaves), limits)
+
+
+def _brief_conflict(track: Track, places: Places, leaves: Places, limits: Limits) -> Hit | None:
+    """Return a hit if an edge has two motions for a short time, at a higher rate; else None.
+
+    Args:
+        track: The edge's samples.
+        places: Rows of the samples in the order of their stamps, shape (n,).
+        leaves: Indices in `places` of the samples before a jump, ascending.
+        limits: The thresholds.
+    """
+    times = track.stamps[places] / NANOSECONDS
+    found = []
+    for some in np.split(leaves, np.flatnonzero(np.diff(times[leaves]) > _WINDOW) + 1):
+        inside = places[some[0] : some[-1] + 2]
+        lasts = float(times[some[-1] + 1] - times[some[0]])
+        # One source that flickers between two poses sends no more samples than before.
+        if len(some) < limits["near_changes"] or len(inside) * track.period / NANOSECONDS < (
+            _MORE * lasts
+        ):
+            continue
+        owned = _two_motions(track, inside, limits)
+        if owned is not None:
+            found.append((lasts, moment(int(track.stamps[inside[0]])), owned))
+    if not found:
+        return None
+    found.sort(key=lambda one: -one[0])
+    hit = _conflict(track, ("A", "B"), *found[0][2], Confidence.LIKELY)
+    when = several([f"{span(int(lasts * NANOSECONDS))} from {at} on" for lasts, at, _ in found])
+    also = f"; only for {when}, in which more samples than usual arrived"
+    text = (
+        "look for a process that still ran at that time, such as an earlier start of the same "
+        "program"
+    )
+    return replace(hit, facts={**hit.facts, "also": also}, fixes=(Fix(text),))
+
+
+_WINDOW = 1.0
+"""Maximum time between two changes in one time of conflict, seconds."""
+
+_MORE = 1.5
+"""Minimum rate of an edge during a short conflict, as a multiple of its usual rate."""
+
+
+def _two_motions(
+    track: Track, places: Places, limits: Limits
+) -> tuple[tuple[Places, Places], tuple[Places, Places]] | None:
+    """Return the samples of two alternating motions, as `_alternating` does; else None.
+
+    Args:
+        track: The edge's samples.
+        places: Rows of the samples in the order of their stamps, shape (n,).
+        limits: The thresholds.
+    """
     if _turns_one_way(track, places):
         return None
     together = _motion_errors(track, places)
@@ -253,7 +310,7 @@ def unnamed_conflict(track: Track, limits: Limits) -> Hit | None:
     for owners in (_follow(track, places, limits), np.arange(len(places)) % 2):
         owned = _alternating(track, places, owners, together, limits)
         if owned is not None:
-            return _conflict(track, ("A", "B"), *owned, Confidence.LIKELY)
+            return owned
     return None
 
 

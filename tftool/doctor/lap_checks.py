@@ -19,7 +19,7 @@ check = checks_of(Area.CLOCKS)
     "1 s",
     headline="time went back by {steps}, {count:times}{loop}",
     detail="at log time {moment:moment}: from {before:moment} to {after:moment}, {streams} "
-    "streams; all other findings are about the data before it",
+    "streams{pause}; all other findings are about the data before it",
     consequence="{so}",
     causes=("play --loop", "a simulation was reset", "NTP set the clock back while running"),
     links=threads("ros2/geometry2#606", "ros/geometry2#43"),
@@ -63,6 +63,7 @@ def time_jump_back(model: Model, limits: Limits) -> Iterator[Hit]:
             "after": first.after,
             "back": first.before - first.after,
             "streams": first.streams,
+            "pause": _pause(model),
             "count": len(model.laps),
             "steps": " to ".join(dict.fromkeys((span(steps[0]), span(steps[-1])))),
             "loop": loop,
@@ -71,6 +72,22 @@ def time_jump_back(model: Model, limits: Limits) -> Iterator[Hit]:
         fixes=(fix,),
         alone=True,
     )
+
+
+def _pause(model: Model) -> str:
+    """Return a clause about the time before the first jump in which nothing arrived, or ""."""
+    stop = model.end - LAP
+    arrivals = [one.logs for one in (*model.tracks, *model.heard)]
+    arrivals += [model.evidence.clock[1], *model.evidence.commands.values()]
+    last = max(int(logs[logs < stop].max(initial=model.start)) for logs in arrivals)
+    if stop - last < _PAUSE:
+        return ""
+    told = f"no transform and no message with a header arrived for {span(model.end - last)}"
+    return f"; before it, {told}"
+
+
+_PAUSE = 10 * LAP
+"""Minimum time without arrivals that is told, nanoseconds."""
 
 
 def _is_seen(model: Model) -> bool:

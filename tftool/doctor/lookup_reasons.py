@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tftool.base.stamps import LATEST, NANOSECONDS, SIMULATED_BELOW, Duration, Stamp
-from tftool.doctor.clock_checks import cure_of_offset
+from tftool.doctor.clock_checks import COUNTS_FROM_0, cure_of_offset
 from tftool.doctor.coverage_checks import Waits, waits_of
 from tftool.doctor.gap_checks import edge_stopped
 from tftool.doctor.heard_names import alike_frames, is_navsat_output
@@ -327,11 +327,8 @@ def _two_clocks(link: TracedLink, track: Track, trace: LookupTrace) -> Reason:
     setting = "false" if _is_simulated(stamp) else "true"
     text = trace.model.words["sim_time_of"].format(setting=setting, edge=link.name)
     if trace.model.evidence.lacks_clock:
-        names[0] = "a clock that counts from 1970"
-        text = (
-            "no /clock was recorded: a simulation, or a computer whose clock was never set; "
-            f"{trace.model.words['which_clock']}"
-        )
+        names[0] = COUNTS_FROM_0
+        text = f"no /clock was recorded; {trace.model.words['which_clock']}"
     clock, other = names if _is_simulated(stamp) else names[::-1]
     return Reason(
         Cause.CLOCK_MIXTURE,

@@ -19,7 +19,16 @@ from tftool.doctor.evidence import (
     without_copies,
     without_doubtful_names,
 )
-from tftool.doctor.stamp_stream import BASES, JOINT_STATES, WILD, Heard, Stream, Track, last_part
+from tftool.doctor.stamp_stream import (
+    BASES,
+    JOINT_STATES,
+    WILD,
+    Heard,
+    Mask,
+    Stream,
+    Track,
+    last_part,
+)
 from tftool.doctor.wording import is_ros1, ros_words
 from tftool.recordings.contract import Stamps
 from tftool.recordings.description_frames import prefix_of
@@ -244,6 +253,15 @@ class Model:
             "state_publisher" in node and len(roots[node]) > 1 and constant[node] < _FIXED
             for node in roots
         )
+
+    @cached_property
+    def empty_messages(self) -> Mask:
+        """Mask of the messages of transforms that contain no transform, shape (m,)."""
+        transforms = self.evidence.transforms
+        empty = np.ones(len(transforms.log_times), dtype=np.bool_)
+        for edge in transforms.edges:
+            empty[edge.messages] = False
+        return empty
 
     @cached_property
     def joint_topics(self) -> tuple[str, ...]:

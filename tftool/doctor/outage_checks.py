@@ -26,7 +26,9 @@ Name = TypeVar("Name")
     "streams. Afterwards the streams go on, with a gap in their stamps or with delayed data. A "
     "constant difference between the clocks is subtracted first. Or no message at all arrives for "
     "{again:g} s, {times:g} times, and messages on /clock then arrive in a burst. Beside an "
-    "outage, times of {short:g} s or more without arrivals on its streams are counted",
+    "outage, times of {short:g} s or more without arrivals on its streams are counted. If a static "
+    "transform is sent again with a new stamp, only then or up to 1 s later, the programs were "
+    "started again",
     headline="nothing arrived for {length:span} on {streams} of {of} streams{often}",
     detail="from {begin:moment} to {end:moment} (log times): {names}; {lost}",
     consequence="data stamped in this time arrived late, in a burst, or never",
@@ -53,6 +55,7 @@ def outage(model: Model, limits: Limits) -> Iterator[Hit]:
     ]
     also = f"; also from {several(others, 3)}" if others else ""
     total = span(sum(one.length for one in outages))
+    again = _sent_again(model, outages)
     yield Hit(
         edges=_unique(s.edge for one in outages for s in one.streams if isinstance(s, Track)),
         topics=_unique(s.topic for one in outages for s in one.streams if isinstance(s, Heard)),
@@ -66,10 +69,10 @@ def outage(model: Model, limits: Limits) -> Iterator[Hit]:
             "streams": len(worst.streams),
             "of": worst.of,
             "names": [stream.name for stream in worst.streams],
-            "lost": _lost(worst) + also + _shorter(worst, outages, limits),
+            "lost": _lost(worst) + again + also + _shorter(worst, outages, limits),
             "often": f", the longest of {len(outages)} outages ({total} in all)" if others else "",
         },
-        fixes=(Fix("look at the network and the recorder at that time"),),
+        fixes=(_RESTARTED if again else _NETWORK,),
         alone=True,
     )
 
@@ -106,6 +109,32 @@ class _Outage:
     def lost(self) -> int:
         """Return the number of streams without stamps for half of the outage or more."""
         return sum(2 * hole > self.length for hole in self.holes)
+
+
+_NETWORK = Fix("look at the network and the recorder at that time")
+"""Remedy for an outage of unknown cause."""
+
+_RESTARTED = Fix("the programs were started again: look why they had stopped")
+"""Remedy for an outage at whose end the static transforms are new."""
+
+
+def _sent_again(model: Model, outages: list[_Outage]) -> str:
+    """Return a clause about static transforms that show that programs were started again, or "".
+
+    Such a transform is sent at the start of its program only: in an outage or up to 1 s later, with
+    another stamp than before.
+    """
+    for track in model.statics:
+        logs, stamps = (column[track.logs < model.end] for column in (track.logs, track.stamps))
+        in_outage = np.zeros(len(logs), dtype=np.bool_)
+        for one in outages:
+            in_outage |= (logs > one.begin) & (logs < one.end + NANOSECONDS)
+        is_new = np.append(False, np.diff(stamps) > 0)[: len(logs)]
+        again = is_new & in_outage
+        if again.any() and bool((in_outage == is_new)[logs >= outages[0].begin].all()):
+            at = moment(int(logs[again][0]))
+            return f"; at {at}, {track.topics[0]} was sent again, with a new stamp"
+    return ""
 
 
 def _outages(model: Model, limits: Limits) -> list[_Outage]:

@@ -102,7 +102,9 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
     "or more, and motion at constant velocity must explain all samples {worse:g} times worse than "
     "each track alone. Tracks of a frame that hardly moves may be nearer: half of the steps and "
     "{near_changes:g} or more are {near:g} m or longer, each track has a share of {near_share:g}, "
-    "and the tracks are {near_times:g} times as far apart as 95 % of the steps in them. A note "
+    "and the tracks are {near_times:g} times as far apart as 95 % of the steps in them. If samples "
+    "jump {near_changes:g} times or more, each time within 1 s of the last, and come at 1.5 times "
+    "the usual rate meanwhile, this time is also judged alone. A note "
     "for a frame that only turns, unless one value returns again and again, and for one of three "
     "or more objects of one publisher that come and go. A warning if the publishers are unknown, "
     "if no frame is below this frame and no message is in it, or for a mount whose two values "
@@ -324,9 +326,7 @@ def empty_message(model: Model, limits: Limits) -> Iterator[Hit]:
     """A publisher sends messages without a transform."""
     transforms = model.evidence.transforms
     within = (transforms.log_times >= model.start) & (transforms.log_times <= model.end)
-    empty = within.copy()
-    for edge in transforms.edges:
-        empty[edge.messages] = False
+    empty = within & model.empty_messages
     for number, publisher in enumerate(transforms.publishers):
         own = transforms.senders == number
         of, without = int(np.count_nonzero(own & within)), int(np.count_nonzero(own & empty))
