@@ -465,7 +465,7 @@ def _several(
         return lambda: packed(kind, size, list(given))
     if isinstance(kind, str):
         return lambda: packed(kind, size, [_nothing(kind)] * max(0, size))
-    return lambda: [kind() for _ in range(max(0, size))]
+    return list if size <= 0 else lambda: [kind() for _ in range(size)]
 
 
 def _nothing(kind: str) -> Any:

@@ -297,8 +297,8 @@ def read(
         far or read_reach(reach),
         read_only,
         DescriptionOptions(
-            dict(_joint(word) for word in joint or ()),
-            dict(_argument(word) for word in argument or ()),
+            dict(map(_joint, joint or ())),
+            dict(map(_argument, argument or ())),
             urdf,
         ),
         RecordingOptions(no_cache, with_odometry, tuple(tf_topic or ())),

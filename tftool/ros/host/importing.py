@@ -168,7 +168,7 @@ def _names_in(package: str, module: str) -> list[str]:
     """
     kind, _, own = module.partition(".")
     names = INTERFACES.names(package, kind) if kind else []
-    return [one for one in names if not own or own == f"_{import_table.snake_case(one)}"]
+    return [one for one in names if own == f"_{import_table.snake_case(one)}"] if own else names
 
 
 class _Finder(MetaPathFinder):
