@@ -2,7 +2,6 @@
 
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from pathlib import Path
 from typing import Any, ClassVar
 
 from tftool.base.errors import UsageError
@@ -294,27 +293,16 @@ class IncludeLaunchDescription(Action):
         arguments = [SetLaunchConfiguration(name, value) for name, value in self.launch_arguments]
         if path is None:
             return [*arguments, *description.entities]
-        return [*arguments, _EnterFile(path), *description.entities, _LeaveFile()]
 
+        def enter(context: LaunchContext) -> None:
+            context.enter_file(path)
 
-class _EnterFile(Action):
-    """Action that makes an included launch file the current file."""
+        def leave(context: LaunchContext) -> None:
+            context.files = context.files[:-1]
 
-    def __init__(self, path: Path) -> None:
-        super().__init__()
-        self.path = path
-
-    def execute(self, context: LaunchContext) -> Any:
-        """Make the included launch file the current file."""
-        context.enter_file(self.path)
-
-
-class _LeaveFile(Action):
-    """Action that makes the including launch file the current file again."""
-
-    def execute(self, context: LaunchContext) -> Any:
-        """Make the including launch file the current file again."""
-        context.files = context.files[:-1]
+        # ThisLaunchFileDir in the included file means the folder of that file.
+        begin, end = OpaqueFunction(function=enter), OpaqueFunction(function=leave)
+        return [*arguments, begin, *description.entities, end]
 
 
 class TimerAction(Action):
