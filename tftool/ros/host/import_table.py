@@ -185,15 +185,16 @@ launch.substitutions: launch.logic: EqualsSubstitution<$equals> NotEqualsSubstit
     IfElseSubstitution<$if>
 launch.substitutions launch.substitutions.boolean_substitution: launch.logic: AndSubstitution<$and>
     OrSubstitution<$or> NotSubstitution<$not> AnySubstitution<$any> AllSubstitution<$all>
-launch.utilities launch.utilities.perform_substitutions_impl: launch.utilities:
+launch.utilities launch.utilities.perform_substitutions_impl: launch.substitutions:
     perform_substitutions
-launch.utilities launch.utilities.normalize_to_list_of_substitutions_impl: launch.utilities:
+launch.utilities launch.utilities.normalize_to_list_of_substitutions_impl: launch.substitutions:
     normalize_to_list_of_substitutions
-launch.utilities launch.utilities.normalize_to_list_of_entities_impl: launch.utilities:
+launch.utilities launch.utilities.normalize_to_list_of_entities_impl: launch.substitutions:
     normalize_to_list_of_entities
 launch launch.some_entities_type: launch.description: SomeEntitiesType
-launch.utilities launch.utilities.ensure_argument_type_impl: launch.utilities: ensure_argument_type
-launch.utilities launch.utilities.class_tools_impl: launch.utilities: is_a is_a_subclass
+launch.utilities launch.utilities.ensure_argument_type_impl: launch.substitutions:
+    ensure_argument_type
+launch.utilities launch.utilities.class_tools_impl: launch.substitutions: is_a is_a_subclass
     isclassinstance
 launch_xml.launch_description_sources: launch.description: XMLLaunchDescriptionSource
 launch_yaml.launch_description_sources: launch.description: YAMLLaunchDescriptionSource

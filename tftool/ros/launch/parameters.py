@@ -11,8 +11,12 @@ from tftool.base.named_files import read_named_text
 from tftool.ros.host import parameter_files
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.parsing import parsed
-from tftool.ros.launch.substitutions import Substitution, is_true, perform
-from tftool.ros.launch.utilities import normalize_to_list_of_substitutions
+from tftool.ros.launch.substitutions import (
+    Substitution,
+    is_true,
+    normalize_to_list_of_substitutions,
+    perform,
+)
 
 _SINGLE = (str, int, float, bool)
 

@@ -11,8 +11,12 @@ from tftool.ros.host import names
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.description import Action
 from tftool.ros.launch.parameters import ParameterFile, normalize_parameters, read_all
-from tftool.ros.launch.substitutions import Substitution, SubstitutionFailure, perform
-from tftool.ros.launch.utilities import normalize_to_list_of_substitutions
+from tftool.ros.launch.substitutions import (
+    Substitution,
+    SubstitutionFailure,
+    normalize_to_list_of_substitutions,
+    perform,
+)
 
 _NAMESPACE, _REMAPS, _PARAMETERS = "ros_namespace", "ros_remaps", "global_params"
 
