@@ -88,12 +88,8 @@ def start_program(
 ) -> None:
     """Start a Python file, or an executable of a package, as a program of a world.
 
-    Args:
-        world: World to join.
-        found_program: The program.
-        on_exit: Function called when a user's program has ended.
-        name: Name of the program and its node, unless `--ros-args` names the node; when
-            empty, the name of the file or the executable.
+    `on_exit` is called when a user's program has ended. Without a name, program and node have the
+    name of the file or the executable; `--ros-args` may name the node.
     """
     found_program.options.name = found_program.options.name or name or None
     executables.start(

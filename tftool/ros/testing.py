@@ -30,9 +30,8 @@ def ros_imports(root: Path, program_of_fixture: Callable[[], Program | None]) ->
 
     Test files and their fixtures need these imports; each test adds the imports of its world.
 
-    Args:
-        root: Folder of the tests, inside the workspace.
-        program_of_fixture: Function that returns the program of the fixture that is being set up.
+    The folder `root` of the tests is inside the workspace. `program_of_fixture` returns the program
+    of the fixture that is being set up.
     """
     with environment(), ros_modules() as finder:
         # Tests sleep and start threads as nodes do, so they need the same time.

@@ -351,9 +351,8 @@ def ros_free(*, force: bool = False, simulated: bool = False) -> Iterator["_Find
 
     Both last until the end of the `with` block.
 
-    Args:
-        force: Whether to replace the modules of a sourced ROS 2.
-        simulated: Whether the programs run on simulated time, which child processes cannot join.
+    With `force`, replace the modules of a sourced ROS 2. If `simulated`, the programs run on
+    simulated time, which child processes cannot join.
 
     Raises:
         UsageError: If a real ROS 2 is sourced and `force` is false.

@@ -70,10 +70,8 @@ class StateMonitor:
     def sleep(self, owner: Any, length: Duration, is_over: Callable[[], bool]) -> None:
         """Block the calling thread until `is_over` returns True, at most for the time `length`.
 
-        Args:
-            owner: Program that the thread belongs to.
-            length: Longest wait in nanoseconds of tftool's clock.
-            is_over: Function called after every change of the state; True ends the wait.
+        `is_over` is called after every change of the state; `length` is in nanoseconds of tftool's
+        clock.
         """
         if not owner.interrupted:
             owner.ask(lambda: self._wait(owner, is_over, max(0, length)))

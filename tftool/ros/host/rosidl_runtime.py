@@ -16,9 +16,8 @@ from tftool.ros.host.error_text import missing_package
 def interface(name: str, kind: str) -> Any:
     """Return the class of the interface named `name`.
 
-    Args:
-        name: Name such as "std_srvs/srv/Trigger" or "std_srvs/Trigger".
-        kind: Kind of the interface: "msg", "srv" or "action".
+    The name is like "std_srvs/srv/Trigger" or "std_srvs/Trigger"; the kind is "msg", "srv" or
+    "action".
 
     Raises:
         UsageError: If the interface is unknown; the text has the nearest name.
@@ -60,9 +59,7 @@ KINDS = {"msg": "Messages", "srv": "Services", "action": "Actions"}
 def interfaces(package: str | None = None, kinds: Sequence[str] = tuple(KINDS)) -> list[str]:
     """Return the full names of the interfaces of the given kinds.
 
-    Args:
-        package: Name of the package; None for all packages.
-        kinds: Kinds of interfaces: "msg", "srv" or "action".
+    If `package` is None, return those of all packages.
 
     Raises:
         UsageError: If there is no such package; the text names a similar one.

@@ -172,13 +172,9 @@ class CommandRunner:
     ) -> int:
         """Run a command until it ends; return its exit status.
 
-        Args:
-            command: Command to run.
-            label: Name of the command for warnings.
-            on_start: Function called with the process, so that the process can be interrupted; not
-                called for a short command that ends while simulated time is stopped.
-            on_line: Function called with each line of output, and whether the line comes from
-                standard output.
+        `on_start` gets the process, to interrupt it; it is not called for a short command that ends
+        while simulated time is stopped. `on_line` gets each line of output, and whether it comes
+        from standard output.
 
         Raises:
             UsageError: If the command cannot be started.

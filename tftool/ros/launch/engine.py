@@ -305,11 +305,8 @@ class Launch(Node):
 
         If this launch runs no node named `node_name`, the wait ends without the service.
 
-        Args:
-            service: Name of the service.
-            node_name: Full name of the node that offers the service.
-            callback: Function called with True if the service exists, else False. During this call,
-                the launch has the arguments and environment of the scope that requested the wait.
+        The callback is called with True if the service exists, else False. During this call, the
+        launch has the arguments and environment of the scope that requested the wait.
         """
 
         def is_settled() -> bool:
@@ -342,11 +339,8 @@ class Launch(Node):
     ) -> None:
         """Send requests to a service, each after the response to the previous request.
 
-        Args:
-            service: Name of the service.
-            requests: Request messages.
-            callback: Function called after each request, with the request and either the response
-                or the error of the call.
+        The callback is called after each request, with the request and either the response or the
+        error of the call.
         """
 
         async def work() -> None:

@@ -174,9 +174,7 @@ def ready_to_test_action_timeout(timeout: float) -> Callable[[Any], Any]:
 def parametrize(argnames: str, argvalues: Iterable[Any]) -> Callable[[Any], Any]:
     """Return a decorator that runs a launch and its tests once for each set of values.
 
-    Args:
-        argnames: Names of the parameters, separated by commas.
-        argvalues: For each launch, a value or a tuple of values.
+    The names are separated by commas; each launch has a value or a tuple of values.
     """
     names = [name.strip() for name in argnames.split(",") if name.strip()]
     sets = [value if isinstance(value, tuple) else (value,) for value in argvalues]
@@ -198,9 +196,7 @@ def parametrize(argnames: str, argvalues: Iterable[Any]) -> Callable[[Any], Any]
 def retry_on_failure(*, times: int, delay: float | None = None) -> Callable[[Any], Any]:
     """Return a decorator that repeats a test as long as an assertion in the test fails.
 
-    Args:
-        times: Largest number of runs of the test.
-        delay: Seconds between two runs; None for no pause.
+    The test runs at most `times` times, with a pause of `delay` seconds between two runs.
     """
 
     def decorate(test: Any) -> Any:

@@ -168,10 +168,8 @@ def launched(name: str, options: tuple[bool, bool], service: LaunchedService, va
 def as_function(test: Any, *, after_end: bool, after_yield: bool = False) -> Callable[..., None]:
     """Convert a launch test to an ordinary test function for pytest.
 
-    Args:
-        test: The user's test, which may be a function, a coroutine function or a generator.
-        after_end: Whether the test runs after the end of the launch.
-        after_yield: Whether to run only the part of a generator after its `yield`.
+    With `after_end`, the test runs after the end of the launch; with `after_yield`, only the part
+    of a generator after its `yield` runs.
     """
     takes = inspect.signature(test)
     wants_service = "launch_service" in takes.parameters

@@ -121,13 +121,8 @@ def expect_output(
 ) -> bool:
     """Return whether an output contains the expected texts or patterns.
 
-    Args:
-        text: The output as a text.
-        lines: The output as lines, instead of `text`.
-        expected_text: See `build_text_match`.
-        expected_lines: See `build_line_match`; instead of `expected_text`.
-        strip_ansi_escape_sequences: Whether to remove colours before the comparison.
-        strict: See `build_text_match` and `build_line_match`.
+    Give the output as a text or as lines. For the expected texts or lines, and for `strict`, see
+    `build_text_match` and `build_line_match`.
 
     Raises:
         ValueError: Unless exactly one of `text` and `lines`, and exactly one of `expected_text` and
@@ -165,10 +160,8 @@ def basic_output_filter(
 ) -> Callable[[str], str]:
     """Return a function that removes lines that begin with a prefix or match a pattern.
 
-    Args:
-        filtered_prefixes: Prefixes of the lines to remove; by default "pid" and "rc".
-        filtered_patterns: Regular expressions, matched at the start of a line; by default none.
-        filtered_rmw_implementation: Ignored, because tftool prints no lines of a middleware.
+    By default, lines that begin with "pid" and "rc" are removed. `filtered_rmw_implementation` is
+    ignored, because tftool prints no lines of a middleware.
     """
     prefixes = tuple(get_default_filtered_prefixes() if filtered_prefixes is None
                      else filtered_prefixes)  # fmt: skip

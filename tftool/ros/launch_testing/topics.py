@@ -54,10 +54,8 @@ class WaitForTopics:
     ) -> None:
         """Create a node that subscribes to the topics.
 
-        Args:
-            topic_tuples: Pairs (topic, message type) to wait for.
-            timeout: Longest wait in seconds.
-            messages_received_buffer_length: Number of messages to store per topic; None for all.
+        Wait at most `timeout` seconds; keep at most `messages_received_buffer_length` messages per
+        topic, None for all.
         """
         self.topic_tuples, self.timeout = list(topic_tuples), timeout
         self._kept = messages_received_buffer_length
@@ -131,12 +129,7 @@ class DataRepublisher:
     ) -> None:
         """Create the subscription and the publisher.
 
-        Args:
-            node: Node that owns the subscription and the publisher.
-            listen_topic: Topic to receive from.
-            publish_topic: Topic to publish on.
-            msg_type: Message type of both topics.
-            transform_fn: Function that returns the changed message, or None to publish nothing.
+        `transform_fn` returns the changed message, or None to publish nothing.
         """
         self._node, self._change = node, transform_fn
         self._received = 0

@@ -509,12 +509,7 @@ def wait_for_message(
 ) -> tuple[bool, Any]:
     """Block until a topic's next message arrives.
 
-    Args:
-        msg_type: Message type of the topic.
-        node: Node that subscribes to the topic.
-        topic: Name of the topic.
-        qos_profile: Quality of service of the subscription, or its depth.
-        time_to_wait: Longest wait in seconds; negative for no limit.
+    `time_to_wait` is the longest wait in seconds; negative for no limit.
 
     Returns:
         (True, the message); (False, None) at the timeout or if rclpy was shut down.

@@ -88,10 +88,7 @@ class NodeState:
     def full(self, name: str, *, remap: bool = True, is_service: bool = False) -> str:
         """Return the full name of a topic or service, without leading slash.
 
-        Args:
-            name: Name in the user's code.
-            remap: Whether to apply the node's remapping rules.
-            is_service: Whether the name is the name of a service.
+        With `remap`, the node's remapping rules are applied.
 
         Raises:
             NameValidationException: If ROS 2 refuses the name.

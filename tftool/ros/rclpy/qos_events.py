@@ -107,11 +107,8 @@ class Silence:
     ) -> None:
         """Create the timer; the first call of `end` starts it.
 
-        Args:
-            state: tftool's state of the node, whose clock is used.
-            limit: Longest allowed time between two calls of `end`, in nanoseconds; None for no
-                limit.
-            on_silence: Function called in the event loop's thread when the limit has passed.
+        `limit` is the longest allowed time between two calls of `end`, in nanoseconds, None for no
+        limit. `on_silence` is called in the event loop's thread when the limit has passed.
         """
         self._node_state = state
         self._limit = limit

@@ -52,12 +52,8 @@ class BufferClient(BufferInterface):
     ) -> None:
         """Create a client for the buffer of another node.
 
-        Args:
-            node: Node that looks up transforms.
-            ns: Name of the action that the other node serves.
-            check_frequency: Ignored, because tftool does not poll for the result as ROS 2 does.
-            timeout_padding: Time to wait for the result in addition to a lookup's timeout, as a
-                Duration or in seconds.
+        `timeout_padding`, a Duration or seconds, is added to the timeout of each lookup.
+        `check_frequency` is ignored, because tftool does not poll for the result as ROS 2 does.
         """
         super().__init__()
         self.node = node
