@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -193,6 +194,33 @@ def test_a_failing_scenario_says_first_what_the_doctor_finds(tftool, scenarios):
     assert len(row["warnings"]) == 1
     assert tftool("check", "odd.yaml", "--record", "kept").status == 1
     assert (scenarios / "kept" / "odd.mcap").exists()
+
+
+JUMP = """\
+duration: 4 s
+nodes:
+  - turtlesim
+  - broadcaster: {turtle: turtle1}
+script:
+  - {at: 2 s, teleport: {turtle: turtle1, x: 1, y: 1}}
+expect:
+  - {at: 1 s, frame: nosuch}
+"""
+
+
+def test_a_remedy_is_printed_with_its_command(tftool, scenarios):
+    (scenarios / "jump.yaml").write_text(JUMP)
+    command = re.compile(r"before it: tftool echo world turtle1 RECORDING --at [0-9.]+$", re.M)
+
+    assert command.search(tftool("check", "jump.yaml").out)
+    (row,) = json.loads(tftool("check", "jump.yaml", "--json").out)
+    assert command.search(row["why"][0])
+    tftool("doctor", "jump.yaml", "--junit", "jump.xml")
+    junit = (scenarios / "jump.xml").read_text()
+    assert re.search(r"before it: tftool echo [^;:]+; after it: tftool echo [^;:]+<", junit)
+    tftool("doctor", "jump.yaml", "--sarif", "jump.sarif")
+    (result,) = json.loads((scenarios / "jump.sarif").read_text())["runs"][0]["results"]
+    assert command.search(result["message"]["text"])
 
 
 def test_frames_of_one_parent_each_are_not_told(tftool, scenarios):

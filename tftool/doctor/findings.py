@@ -71,6 +71,11 @@ class Fix:
     text: str
     command: str = ""
 
+    @property
+    def line(self) -> str:
+        """The remedy with its command, in one line."""
+        return f"{self.text.removesuffix(':')}: {self.command}" if self.command else self.text
+
 
 @dataclass(frozen=True, slots=True)
 class Finding:

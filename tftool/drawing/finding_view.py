@@ -628,7 +628,7 @@ def as_junit(rows: Sequence[tuple[str, Diagnosis | str]], fails: Severity | None
                 f"{one.id}: {one.message}",
                 fails is None or one.known or one.severity.rank > fails.rank,
                 expected="nothing found",
-                found="; ".join((*one.evidence, *(fix.text for fix in one.fixes))),
+                found="; ".join((*one.evidence, *(fix.line for fix in one.fixes))),
             )
             for one in found.findings
             if one.because_of is None

@@ -83,9 +83,8 @@ def _result(source: str, finding: Finding) -> dict[str, Any]:
 
 
 def _message(finding: Finding) -> str:
-    fixes = (f"{fix.text}{f': {fix.command}' if fix.command else ''}" for fix in finding.fixes)
     lines = [finding.message, *finding.evidence, f"so: {finding.consequence}"]
-    lines += [f"fix: {fix}" for fix in fixes]
+    lines += [f"fix: {fix.line}" for fix in finding.fixes]
     return "\n".join(visible(line) for line in lines)
 
 

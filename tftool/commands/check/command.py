@@ -144,7 +144,7 @@ class _RunLog:
             ignore=rules.ignore,
         )
         return tuple(
-            f"{fault.id}: {fault.message}" + (f"; {fault.fixes[0].text}" if fault.fixes else "")
+            f"{fault.id}: {fault.message}" + (f"; {fault.fixes[0].line}" if fault.fixes else "")
             for fault in faults
         )
 
