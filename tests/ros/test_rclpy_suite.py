@@ -162,6 +162,14 @@ def test_types_can_be_told_apart(node):
         type_support.check_for_type_support(object())
 
 
+def test_a_log_method_refuses_another_severity(node):
+    from rclpy.logging import LoggingSeverity
+
+    logger = node.get_logger()
+    with pytest.raises(TypeError, match="multiple values for argument 'severity'"):
+        logger.fatal("stop", severity=LoggingSeverity.DEBUG)
+
+
 def test_levels_of_loggers_have_messages_and_can_be_forgotten(node, monkeypatch, tmp_path):
     import rclpy.logging
     from rcl_interfaces.msg import LoggerLevel

@@ -4,7 +4,6 @@ import inspect
 import os
 from collections.abc import Iterator
 from enum import IntEnum
-from functools import partialmethod
 from pathlib import Path
 from types import CodeType, FrameType
 from typing import Any
@@ -125,12 +124,27 @@ class RcutilsLogger:
         owner.ask(say)
         return True
 
-    # Methods `debug(message, **filters)` and so on, which log a message with one severity.
-    debug = partialmethod(log, severity=LoggingSeverity.DEBUG)
-    info = partialmethod(log, severity=LoggingSeverity.INFO)
-    warning = warn = partialmethod(log, severity=LoggingSeverity.WARN)
-    error = partialmethod(log, severity=LoggingSeverity.ERROR)
-    fatal = partialmethod(log, severity=LoggingSeverity.FATAL)
+    def debug(self, message: object, **kwargs: Any) -> bool:
+        """Log a message with severity DEBUG; return whether the message was logged."""
+        return self.log(message, LoggingSeverity.DEBUG, **kwargs)
+
+    def info(self, message: object, **kwargs: Any) -> bool:
+        """Log a message with severity INFO; return whether the message was logged."""
+        return self.log(message, LoggingSeverity.INFO, **kwargs)
+
+    def warning(self, message: object, **kwargs: Any) -> bool:
+        """Log a message with severity WARN; return whether the message was logged."""
+        return self.log(message, LoggingSeverity.WARN, **kwargs)
+
+    warn = warning
+
+    def error(self, message: object, **kwargs: Any) -> bool:
+        """Log a message with severity ERROR; return whether the message was logged."""
+        return self.log(message, LoggingSeverity.ERROR, **kwargs)
+
+    def fatal(self, message: object, **kwargs: Any) -> bool:
+        """Log a message with severity FATAL; return whether the message was logged."""
+        return self.log(message, LoggingSeverity.FATAL, **kwargs)
 
 
 _UNCHANGED = ("Logger severity", "Logger name", "Logging filter parameters")
