@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 import yaml
 
+from tests.recordings.writers import Sent, numbers, write_mcap
+
 ROOT = Path(__file__).parents[2]
 
 
@@ -230,6 +232,31 @@ def test_what_is_wrong_stands_beside_the_frame(tftool, tmp_path):
     }  # fmt: skip
     # After three seconds, the lamp is still published.
     assert "edge-stopped" not in tftool("tree", file, "--at", "3").out
+
+
+def test_two_static_parents_stand_beside_the_frame(tftool, tmp_path):
+    played = tmp_path / "cam.yaml"
+    played.write_text(
+        "duration: 1 s\nnodes:\n"
+        "  - static: {parent: map, child: cam}\n  - static: {parent: odom, child: cam}\n",
+        encoding="utf-8",
+    )
+    sent = [
+        Sent(k, "/tf_static", ((0, parent, "cam", numbers(1)),))
+        for k, parent in ((1, "map"), (2, "odom"), (3, "map"))
+    ]
+    recorded = write_mcap(tmp_path / "run.mcap", sent)
+
+    assert "cam (two-parents)" in tftool("tree", played).out
+    result = tftool("tree", recorded)
+    assert "cam (two-parents)" in result.out
+    assert (
+        "'cam' has a static transform in each of 2 parents: the last one, in 'map', is used, "
+        "not 'odom'.\n"
+    ) in result.err
+    result = tftool("explain", "map", "cam", recorded)
+    assert result.status == 0
+    assert "cam has the parents map, odom, and the one sent last" in " ".join(result.out.split())
 
 
 def test_nothing_stands_beside_frames_that_are_as_they_should_be(tftool):

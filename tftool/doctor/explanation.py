@@ -27,9 +27,10 @@ from tftool.doctor.lookup_reasons import (
     works,
 )
 from tftool.doctor.model import Model, Settings
+from tftool.doctor.publisher_checks import two_parents
 from tftool.doctor.stamp_stream import Track
 from tftool.doctor.trace import LinkVerdict, LookupTrace, Question, TracedLink
-from tftool.doctor.wording import moment, span
+from tftool.doctor.wording import moment, several, span
 from tftool.recordings.contract import Stamps
 
 if TYPE_CHECKING:
@@ -143,7 +144,7 @@ def traced(model: Model, question: Question) -> Explanation:
         answerable_from=begin,
         answerable_until=end,
         cause=told.cause,
-        why=(*told.why, *misleading),
+        why=(*told.why, *misleading, *(_two_parents(model, links) if known.available else ())),
         remedies=told.remedies,
         useless=told.useless,
         in_whole=way is not None
@@ -226,6 +227,22 @@ def _holds(
         at = common if question.stamp == LATEST else np.full(len(asks), question.stamp)
         holds &= (np.maximum.reduce(oldest) <= at) & (at <= common)
     return holds
+
+
+def _two_parents(model: Model, links: tuple[TracedLink, ...]) -> tuple[str, ...]:
+    """Return a note for each frame of a path that is sent with several parents."""
+    children = {link.child for link in links}
+    parents = {
+        child: [parent for parent, _ in hit.edges]
+        for hit in two_parents(model)
+        for child in hit.frames
+    }
+    return tuple(
+        f"{child} has the parents {several(parents[child])}, and the one sent last before the "
+        "time of the lookup counts: see two-parents in 'tftool doctor'"
+        for child in parents
+        if child in children
+    )
 
 
 def _misleading(

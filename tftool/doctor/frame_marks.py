@@ -3,12 +3,16 @@
 The slow import of numpy and of the checks is made only for buffers that may contain faults.
 """
 
+from collections.abc import Iterable
+
 from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW
 from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import Snapshot
 
 
-def marks(buffer: Buffer, snapshot: Snapshot) -> dict[str, tuple[str, ...]]:
+def marks(
+    buffer: Buffer, snapshot: Snapshot, statics: Iterable[tuple[str, str]] = ()
+) -> dict[str, tuple[str, ...]]:
     """Return the ids of the checks that find a fault, by frame name.
 
     Only the checks `two-parents`, `clock-mixture` and `edge-stopped` run.
@@ -16,12 +20,22 @@ def marks(buffer: Buffer, snapshot: Snapshot) -> dict[str, tuple[str, ...]]:
     Args:
         buffer: The buffer.
         snapshot: Snapshot of the buffer's frames.
+        statics: Parent and child of each static transform that was sent. The buffer itself has only
+            the last parent of a child.
     """
+    parents: dict[str, set[str]] = {}
+    for parent, child in statics:
+        parents.setdefault(child.lstrip("/"), set()).add(parent.lstrip("/"))
+    found: dict[str, tuple[str, ...]] = {
+        child: ("two-parents",) for child, names in parents.items() if len(names) > 1
+    }
     if _is_calm(buffer, snapshot):
-        return {}
+        return found
     from tftool.doctor.marked_frames import marked
 
-    return marked(buffer)
+    for child, ids in marked(buffer).items():
+        found[child] = tuple(dict.fromkeys((*found.get(child, ()), *ids)))
+    return found
 
 
 def _is_calm(buffer: Buffer, snapshot: Snapshot) -> bool:

@@ -135,6 +135,13 @@ class Frames:
         return frozenset(one.child for one in self._robot.joints.values() if one.moves)
 
     @property
+    def static_edges(self) -> list[tuple[str, str]]:
+        """Parent and child of every static transform, also of those that a later one replaced."""
+        if self.recording is not None:
+            return [(one.parent, one.child) for one in self.recording.edges if one.static]
+        return [] if self.log is None else self.log.static_edges()
+
+    @property
     def notes(self) -> tuple[str, ...]:
         """Sentences about damage, missing frames and joints without a position."""
         return tuple(self._notes() if callable(self._notes) else self._notes)

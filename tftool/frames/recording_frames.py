@@ -22,7 +22,10 @@ def recording_notes(recording: Recording) -> list[str]:
         *recording.source.oddities,
         *odometry_notes(recording),
         *_described_notes(recording.described),
-        *(f"{text} ({times} times)." for text, times in recording.oddities.items()),
+        *(
+            f"{text}." if times == 1 else f"{text} ({times} times)."
+            for text, times in recording.oddities.items()
+        ),
     ]
 
 

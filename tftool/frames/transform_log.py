@@ -57,6 +57,10 @@ class TransformLog:
     def __len__(self) -> int:
         return self._count
 
+    def static_edges(self) -> list[tuple[str, str]]:
+        """Return parent and child of every static transform."""
+        return [(parent, child) for parent, child, is_static in self._rows if is_static]
+
     def copy(self) -> "TransformLog":
         """Return a copy of the log, for another thread to read."""
         copied = TransformLog()

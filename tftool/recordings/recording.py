@@ -472,7 +472,13 @@ def _set_static(
     if sum(map(len, edges)) == 1:
         return
     values = sum(len(np.unique(one.records[:, 1:], axis=0)) for one in edges)
-    if values > 1:
+    parents = ", ".join(f"'{one.parent}'" for one in edges if one is not edge and len(one))
+    if parents:
+        oddities[
+            f"'{edge.child}' has a static transform in each of {len(edges)} parents: the last one, "
+            f"in '{edge.parent}', is used, not {parents}"
+        ] += 1
+    elif values > 1:
         text = f"'{edge.child}' has {values} different static values: the last value is used"
         oddities[text] += 1
 

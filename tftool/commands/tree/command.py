@@ -149,7 +149,7 @@ def run(connection: Connection, options: TreeOptions) -> ExitStatus:
     snapshot = buffer.snapshot(now)
     # A description that is not published has no messages for the doctor to judge.
     is_silent = form in WITHOUT_MARKS or frames.moving is not None
-    marks = {} if is_silent else doctor_marks(buffer, snapshot)
+    marks = {} if is_silent else doctor_marks(buffer, snapshot, frames.static_edges)
     _write(snapshot, frames.moving, form, marks, options)
     for sentence in rivalries(buffer, buffer.frames()):
         notice(sentence)
