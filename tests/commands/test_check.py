@@ -196,6 +196,32 @@ def test_a_failing_scenario_says_first_what_the_doctor_finds(tftool, scenarios):
     assert (scenarios / "kept" / "odd.mcap").exists()
 
 
+NAMELESS = """\
+duration: 2 s
+nodes: [turtlesim]
+script:
+  - {at: 1 s, broadcast: {parent: a, child: a}}
+expect:
+  - {at: 2 s, frame: a}
+"""
+
+
+def test_a_failing_scenario_without_transforms_says_why_there_are_none(tftool, scenarios):
+    (scenarios / "nameless.yaml").write_text(NAMELESS)
+    (scenarios / "lost.yaml").write_text(GOOD.replace("[turtle1]", "[turtle2]"))
+
+    (bad,), (nameless,), (lost,) = (
+        json.loads(tftool("check", f"{name}.yaml", "--json").out)
+        for name in ("bad", "nameless", "lost")
+    )
+
+    assert bad["why"] == ["no-transforms: no node sent a transform"]
+    (why,) = nameless["why"]
+    assert why.startswith("no-transforms: every transform was rejected: TF_SELF_TRANSFORM: ")
+    # The turtles need no transform.
+    assert (lost["ok"], lost["why"]) == (False, [])
+
+
 JUMP = """\
 duration: 4 s
 nodes:

@@ -106,10 +106,12 @@ class Subject(Declared):
     Attributes:
         key: Key of the question in a scenario, such as "distance".
         form: Form that reads the expected answer.
+        is_of_frames: Whether the answer depends on transforms.
     """
 
     key: ClassVar[str]
     form: ClassVar[Form]
+    is_of_frames: ClassVar[bool] = True
 
     def answer(self, scene: ScenarioWorld) -> Any:
         """Return the answer at the current time.
@@ -382,6 +384,8 @@ class Roots(Subject):
 class Turtles(Subject):
     """Question for the turtles on the field."""
 
+    is_of_frames: ClassVar[bool] = False
+
     names: tuple[str, ...] = reads(values.several(values.turtle, "turtles"))
 
     def answer(self, scene: ScenarioWorld) -> list[str]:
@@ -398,6 +402,8 @@ class Turtles(Subject):
 @declare(SUBJECTS, "pose", form=TURTLE_POSE_FORM, short="turtle")
 class PoseOf(Subject):
     """Question for a turtle's last published pose."""
+
+    is_of_frames: ClassVar[bool] = False
 
     turtle: str = reads(values.turtle)
 
@@ -418,6 +424,8 @@ class PoseOf(Subject):
 )
 class Logged(Subject):
     """Question for the number of log messages with a text; node and level may be given, too."""
+
+    is_of_frames: ClassVar[bool] = False
 
     text: str = reads(values.text)
     node: str | None = reads(values.name("a node"), None)

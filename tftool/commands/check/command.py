@@ -28,6 +28,7 @@ from tftool.scenario.play import run_scenario
 from tftool.scenario.scenario import Scenario, Verdict
 from tftool.world.clock import Clock, WallClock
 from tftool.world.frame_listener import logged_in
+from tftool.world.log import LogRecord
 from tftool.world.world import World
 
 if TYPE_CHECKING:
@@ -82,7 +83,7 @@ def _judge(
         verdict = _recorded(scenario, judge, folder.path_for(scenario.name), log)
     for warning in verdict.warnings:
         notice(visible_lines(warning))
-    found = () if verdict.ok else log.findings()
+    found = () if verdict.ok else log.findings(verdict)
     return replace(verdict.report(), warnings=warnings + verdict.warnings, why=found), True
 
 
@@ -95,13 +96,14 @@ class _RunLog:
     def __init__(self, scenario: Scenario) -> None:
         self._scenario = scenario
         self._log: TransformLog | None = None
+        self._rejected: dict[str, str] = {}
         self._span: tuple[Stamp, Callable[[], Stamp]] | None = None
 
     @contextmanager
     def watching(self, world: World) -> Iterator[None]:
         """Record a world's transforms until the block ends."""
         self._log, stop = logged_in(world)
-        stops = [stop]
+        stops = [stop, world.log.listen(self._note_rejection, "check")]
         if sys.stderr.isatty():
             stops.append(world.tf.subscribe(self._progress(world.clock)))
         self._span = (world.clock.now(), world.clock.now)
@@ -126,13 +128,21 @@ class _RunLog:
 
         return tell
 
-    def findings(self) -> tuple[str, ...]:
+    def _note_rejection(self, record: LogRecord) -> None:
+        """Keep the first message of each reason for which the buffer rejects transforms."""
+        reason, colon, _ = record.text.partition(":")
+        if record.node == "buffer" and colon and reason.startswith("TF_"):
+            self._rejected.setdefault(reason, record.text)
+
+    def findings(self, verdict: Verdict) -> tuple[str, ...]:
         """Return a sentence for each error or warning of the doctor, with a suggested fix."""
         # Imported here: this takes as long as most scenarios take to play.
         from tftool.doctor.judge import faults_in_log
 
         if self._log is None or self._span is None:
             return ()
+        if not len(self._log):
+            return self._without_transforms(verdict)
         begin, now = self._span
         scenario, rules = self._scenario, self._scenario.doctor
         faults = faults_in_log(
@@ -147,6 +157,18 @@ class _RunLog:
             f"{fault.id}: {fault.message}" + (f"; {fault.fixes[0].line}" if fault.fixes else "")
             for fault in faults
         )
+
+    def _without_transforms(self, verdict: Verdict) -> tuple[str, ...]:
+        """Return why an expectation about frames failed if the buffer has no transform."""
+        failed = {one.line for one in verdict.outcomes if one.reached and not one.ok}
+        asked = (one for one in self._scenario.expect if one.line in failed)
+        if not any(one.question.is_of_frames for one in asked):
+            return ()
+        if not self._rejected:
+            return ("no-transforms: no node sent a transform",)
+        # One transform can be rejected for several reasons; the last one names the missing field.
+        last = [*self._rejected.values()][-1]
+        return (f"no-transforms: every transform was rejected: {last}",)
 
 
 class _RecordingFolder:
