@@ -485,23 +485,3 @@ def test_single_transforms_of_a_frame_that_tf_lacks_are_examined():
     made.moving("world", "ball", end=3.0, topic="/vicon/ball")
     judged = with_type(made, "/vicon/ball")
     assert "ball" in judged.model.frames
-
-
-def test_the_map_of_each_robot_is_offered_for_its_own_odometry():
-    made = Robot()
-    for name in ("car0", "car1"):
-        made.moving(f"{name}/odom", f"{name}/base_link")
-        made.moving(f"{name}/map", f"{name}/scanmatcher_frame", 10.0)
-    told = {
-        one.frames[0]: one.fixes[0].text for one in made.judged().findings if one.id == "split-tree"
-    }
-    assert "publish car0/odom in car0/map" in told["car0/map"]
-    assert "publish car1/odom in car1/map" in told["car1/map"]
-
-
-@pytest.mark.parametrize("topic", ["/joint_states", "/base/wheels"])
-def test_wheels_on_a_topic_of_their_own_need_no_robot_state_publisher(topic):
-    made = robot(laser=False)
-    made.hears(topic, "", 20.0, "sensor_msgs/JointState")
-    text = " ".join(found(made, "static-missing").evidence) + found(made, "static-missing").message
-    assert ("robot_state_publisher" in text) is (topic == "/joint_states")

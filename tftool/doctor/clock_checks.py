@@ -399,7 +399,7 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
         by = span(offsets[0])
         if offsets[-1] - offsets[0] > _ONE_CLOCK:
             by += f" to {span(offsets[-1])}"
-        told, odd = "", several(names)
+        told = ""
         if model.shift is not None and len(heards) < len(streams):
             told = f": {model.shift.streams} of {model.shift.of} streams are not on the recorder's"
         sources = _on_both_clocks(model, streams)
@@ -410,9 +410,6 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
         off = f"off {other}"
         if told:
             so = "no lookup across the two clocks can succeed"
-            off, odd = _off_the_recorder(model, streams, off + told)
-            if model.shift is not None and odd != several(names):
-                groups = _offsets(model, model.shift.by)
         elif _is_of_transforms(model, ahead):
             off = f"{'ahead of' if ahead > 0 else 'behind'} the recorder's clock"
             so = (
@@ -426,11 +423,11 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
             since=min(int(one.logs[0]) for one in streams),
             count=sum(len(one.stamps) for one in streams),
             facts={
-                "topic": odd,
+                "topic": several(names),
                 "ahead": ahead,
                 "groups": groups,
                 "sources": sources,
-                "found": f"{'is' if odd in names else 'are'} {by} {off}",
+                "found": f"{'is' if len(names) == 1 else 'are'} {by} {off}" + told,
                 "so": so,
             },
             severity=Severity.ERROR
@@ -443,37 +440,6 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
         )
     if not alike:
         yield from _groups_apart(model, limits)
-
-
-def _off_the_recorder(model: Model, streams: Sequence[Track | Heard], off: str) -> tuple[str, str]:
-    """Return a clause about two clocks, and the names of the streams on the wrong one.
-
-    Streams whose stamps agree with their arrival are on the right clock, even if they are few. That
-    does not hold for a localiser alone, or if the others may have been played again.
-
-    Args:
-        model: Model of the evidence.
-        streams: The streams without the shift that most other streams have.
-        off: The clause if these streams do not agree with the recorder's clock either.
-    """
-    names = list(dict.fromkeys(one.name for one in streams))
-    every: list[Track | Heard] = [
-        *model.dynamic,
-        *(heard for heard in model.heard if heard.is_spatial),
-    ]
-    late = [int(np.median(one.logs - one.stamps)) for one in streams]
-    is_localiser = all(isinstance(one, Track) and one.is_localisation for one in streams)
-    by = 0 if model.shift is None else model.shift.by
-    if by >= 0 or is_localiser or max(map(abs, late)) > seconds(1):
-        return off, several(names)
-    odd = [
-        one.name
-        for one in every
-        if one not in streams and len(one.stamps) > 2 and 2 * abs(one.median_latency) < abs(by)
-    ]
-    verb = "agrees" if len(names) == 1 else "agree"
-    text = f"the recorder's clock, with which {several(names, 3)} {verb}"
-    return f"ahead of {text}", several(list(dict.fromkeys(odd)))
 
 
 def _same(known: Iterable[Duration], ahead: Duration) -> Duration:
@@ -592,16 +558,13 @@ def _is_one_period(stream: "Track | Heard") -> bool:
     return 0.5 * period < stream.median_latency < 1.2 * period
 
 
-def _offsets(model: Model, by: Duration = 0) -> list[str]:
-    """Return a line for each group of streams whose latency, rounded to 20 ms, is equal.
-
-    `by` is added to each latency, nanoseconds.
-    """
+def _offsets(model: Model) -> list[str]:
+    """Return a line for each group of streams whose latency, rounded to 20 ms, is equal."""
     grouped: dict[int, list[str]] = defaultdict(list)
     streams: list[Track | Heard] = [*model.dynamic, *model.heard]
     for one in streams:
         if len(one.stamps) > 2:
-            grouped[round((one.median_latency + by) / seconds(0.02))].append(one.name)
+            grouped[round(one.median_latency / seconds(0.02))].append(one.name)
     return [
         f"{', '.join(dict.fromkeys(names[:4]))}: {span(step * 20_000_000)}"
         for step, names in sorted(grouped.items())

@@ -62,8 +62,7 @@ def proposed_join(model: Model, main: Tree, lesser: Tree) -> Join | None:
         found = _localised(tree, other) or _by_another_name(model, tree, other)
         if found is not None:
             return found
-    # The map of another robot than that of the larger tree.
-    return next(filter(None, (_localised(tree, lesser) for tree in model.trees)), None)
+    return None
 
 
 def proposed_frame(model: Model, name: str, kinds: Iterable[str] = ()) -> Join | None:
@@ -230,9 +229,7 @@ def _localised(tree: Tree, other: Tree) -> Join | None:
     """
     if not last_part(tree.root).startswith(("odom", "camera_init")):
         return None
-    # The map of another robot is no parent.
-    own = ("", _prefix(tree.root))
-    maps = sorted(f for f in other.frames if last_part(f) == "map" and _prefix(f) in own)
+    maps = sorted(frame for frame in other.frames if last_part(frame) == "map")
     if not maps:
         return None
     why = f"REP-105 has a localiser publish {tree.root} in {maps[0]}"

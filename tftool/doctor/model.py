@@ -272,10 +272,7 @@ class Model:
     @cached_property
     def lacks_state_publisher(self) -> bool:
         """Whether joint states arrived, but all transforms come from odometry or localisers."""
-        # The driver of a base has a topic of its own for its wheels.
-        is_read = any(last_part(topic) == "joint_states" for topic in self.joint_topics)
-        is_read |= bool(self.joint_topics) and self.evidence.robot is not None
-        return is_read and all(track.is_odometry for track in self.tracks)
+        return bool(self.joint_topics) and all(track.is_odometry for track in self.tracks)
 
     @cached_property
     def start(self) -> Stamp:
@@ -558,7 +555,7 @@ class Model:
 
     def _find_shift(self, streams: list[Stream]) -> None:
         """Set `shift` to the constant delay of most streams, and subtract it from the arrivals."""
-        late, spreads, fast, moving, kept = [], [], [], [], []
+        late, spreads, moving, kept = [], [], [], []
         for stream in streams:
             is_moving = False
             if isinstance(stream, Track):
@@ -576,7 +573,6 @@ class Model:
             late.append(int(middle))
             kept.append(stream)
             spreads.append(int(high) - int(low))
-            fast.append(int(middle) - int(low))
             if is_moving:
                 moving.append(int(middle))
         by = sorted(late)[len(late) // 2] if late else 0
@@ -587,11 +583,7 @@ class Model:
         near = max(LAP, abs(by) // 10_000)
         alike = [spread for one, spread in zip(late, spreads, strict=True) if abs(one - by) < near]
         spread = sorted(alike)[len(alike) // 2]
-        steady = spread
-        if by < 0:  # no queue delays data to before its stamp, so late bursts do not matter
-            half = [one for one, delay in zip(fast, late, strict=True) if abs(delay - by) < near]
-            steady = sorted(half)[len(half) // 2]
-        if 2 * len(alike) <= len(late) or steady > LAP:
+        if 2 * len(alike) <= len(late) or spread > LAP:
             return
         at_once = [s for one, s in zip(late, kept, strict=True) if abs(one - by) < _ONE_CLOCK]
         if all(_copies(at_once[0], other) for other in at_once[1:]):
