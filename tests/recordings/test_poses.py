@@ -121,6 +121,16 @@ def test_kalibr_maps_into_the_camera(tmp_path, key):
     assert translations.tolist() == [[-0.5, 0, 0]]
 
 
+def test_static_poses_have_no_time(tftool, tmp_path):
+    matrix = [[1, 0, 0, 0.5], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
+    path = tmp_path / "c.yaml"
+    path.write_text(f"cam0:\n  T_cam_imu: {matrix}\n")
+
+    told = tftool("echo", "imu", "cam0", path)
+
+    assert told.out.startswith("At time 0.0\n- Translation: [-0.500, ")
+
+
 def test_euroc_sensor_maps_into_the_body(tmp_path):
     data = [1, 0, 0, 0.5, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
     text = f"#Default\nsensor_type: camera\nT_BS:\n  cols: 4\n  rows: 4\n  data: {data}\n"

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from tftool.base.errors import TransformException, UsageError
 from tftool.base.exit_status import ExitStatus
-from tftool.base.stamps import Stamp, seconds
+from tftool.base.stamps import LATEST, Stamp, seconds
 from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import TransformStamped
 from tftool.commands.echo import EchoOptions
@@ -194,6 +194,10 @@ def print_span(frames: Frames, options: EchoOptions, printer: Printer) -> None:
     name_frames(buffer.frames(), pair)
     if topic is not None and frames.recording is not None:
         stamps = frames.recording.headers(topic).stamps
+    elif frames.span[1] == LATEST:
+        # Static transforms of a pose file have no time.
+        printer.found(LATEST, buffer.lookup_transform(*pair))
+        return
     else:
         stamps = evenly(*frames.span, seconds(1.0 / (options.rate or 1.0)))
     path = buffer.lookup_transforms(*pair, stamps, missing="nan")
