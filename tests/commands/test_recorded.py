@@ -1,5 +1,6 @@
 """Tests of commands with a real recording as FROM."""
 
+import itertools
 import json
 
 import numpy as np
@@ -133,6 +134,31 @@ def test_info_tells_topics_edges_and_publishers(tftool, tmp_path):
     assert told["odd"] == []
     assert "arm in base_link" in text
     assert "/state_publisher" in text
+
+
+def test_info_measures_the_mean_rate_without_gaps_and_none_of_statics(tftool, tmp_path):
+    # 16 ms in the mean, but usually 18 ms; then a gap of 5 s.
+    periods = [18, 18, 12] * 20 + [5000] + [18, 18, 12] * 20
+    stamps = [
+        1_000_000_000 * 1000 + 1_000_000 * at for at in itertools.accumulate(periods, initial=0)
+    ]
+    sent = [Sent(at, "/tf", ((at, "map", "base", numbers(1)),)) for at in stamps]
+    sent += [
+        Sent(stamps[0] + 1000, "/tf_static", ((1, "base", name, numbers(2)),))
+        for name in ("laser", "imu")
+    ]
+    write_mcap(tmp_path / "run.mcap", sorted(sent, key=lambda one: one.log_time))
+
+    told = json.loads(tftool("info", tmp_path / "run.mcap", "--json").out)
+
+    (rate,) = [one["rate"] for one in told["edges"] if one["child"] == "base"]
+    assert rate == pytest.approx(62.5, rel=1e-3)
+    (row,) = [
+        line
+        for line in tftool("info", tmp_path / "run.mcap").out.splitlines()
+        if "/tf_static " in line
+    ]
+    assert "Hz" not in row
 
 
 def test_info_counts_in_words_and_shows_no_table_of_nothing(tftool, tmp_path):

@@ -101,7 +101,9 @@ def _topics(recording: Recording, topics: Sequence[RecordedTopic]) -> list[tuple
             visible(topic.name),
             visible(topic.type),
             f"{topic.count:,}",
-            f"{(topic.count - 1) * NANOSECONDS / span:.1f} Hz" if topic.count > 1 and span else "-",
+            f"{(topic.count - 1) * NANOSECONDS / span:.1f} Hz"
+            if topic.count > 1 and span and not topic.static
+            else "-",
             _few(sorted({one.node for one in publishers[topic.name]})),
         )
         for topic in topics

@@ -17,6 +17,7 @@ from tftool.frames.frames import Frames
 from tftool.geometry import rigid_arrays as batch
 from tftool.geometry.conversions import rpy_from_quaternion
 from tftool.geometry.rigid import Transform
+from tftool.recordings.contract import usual_rate
 from tftool.recordings.find import Kind, find
 from tftool.recordings.recording import Recording, open_recording
 from tftool.robots.description import RobotJoint
@@ -100,7 +101,7 @@ class LinkState:
         parent: Parent in the last sample.
         kind: Static, moving, or depending on a joint.
         count: Number of samples.
-        rate: Rate in hertz, from the median period; None if static.
+        rate: Mean rate in hertz without gaps; None if static.
         pose: Pose of the child in the parent, if static, or at position zero of its joint; else
             None.
     """
@@ -320,10 +321,7 @@ def _state(side: Side, held: SampleColumns) -> LinkState:
             return LinkState(parent, Behaviour.joint, len(held), None, joint.origin)
         row = held.poses[-1].tolist()
         return LinkState(parent, Behaviour.static, len(held), None, Transform(row[:3], row[3:]))
-    periods = np.diff(held.stamps)
-    periods = periods[periods > 0]
-    rate = 1e9 / float(np.median(periods)) if len(periods) else None
-    return LinkState(parent, Behaviour.moving, len(held), rate, None)
+    return LinkState(parent, Behaviour.moving, len(held), usual_rate(held.stamps), None)
 
 
 def _joint_changes(old: RobotJoint, new: RobotJoint, tolerance: Allowance) -> str:

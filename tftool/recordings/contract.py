@@ -192,6 +192,26 @@ def median(column: Stamps) -> float:
     return (float(middle[half - 1]) + float(middle[half])) / 2.0
 
 
+def usual_rate(stamps: Stamps) -> float | None:
+    """Return the mean rate of samples in hertz, without gaps: periods of more than three medians.
+
+    Args:
+        stamps: Stamps of the samples in any order, nanoseconds, shape (n,).
+
+    Returns:
+        The rate; None without two different stamps.
+    """
+    periods = stamps[1:] - stamps[:-1]
+    if len(periods) and periods.min() <= 0:
+        ordered = np.sort(stamps)
+        periods = ordered[1:] - ordered[:-1]
+        periods = periods[periods > 0]
+    if not len(periods):
+        return None
+    regular = periods[periods <= 3.0 * median(periods)]
+    return len(regular) * 1e9 / float(regular.sum())
+
+
 def percentile(values: npt.NDArray[np.int64] | npt.NDArray[np.float64], percent: float) -> float:
     """Return a percentile of one or more numbers, like `numpy.percentile`.
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tftool.base.stamps import SIMULATED_BELOW, Duration, Stamp
-from tftool.recordings.contract import Edge, Transforms, median
+from tftool.recordings.contract import Edge, Transforms, median, usual_rate
 from tftool.recordings.recording import Recording
 
 
@@ -28,7 +28,7 @@ class EdgeFacts:
         child: Name of the child.
         static: Whether the edge is static.
         count: Number of transforms.
-        rate: Rate in hertz, from the median period; None if static, or for one transform.
+        rate: Mean rate in hertz without gaps; None if static, or for one transform.
         first: First stamp, nanoseconds.
         last: Last stamp, nanoseconds.
         offset: Statistics of the delay from stamp to log time; None if static.
@@ -70,12 +70,7 @@ def _facts(transforms: Transforms, edge: Edge) -> EdgeFacts:
     first, last = int(stamps.min()), int(stamps.max())
     rate = offset = None
     if not edge.static:
-        periods = stamps[1:] - stamps[:-1]
-        if len(periods) and periods.min() <= 0:
-            ordered = np.sort(stamps)
-            periods = ordered[1:] - ordered[:-1]
-            periods = periods[periods > 0]
-        rate = 1e9 / median(periods) if len(periods) else None
+        rate = usual_rate(stamps)
         late = transforms.log_times_of(edge) - stamps
         offset = Offset(int(late.min()), int(median(late)), int(late.max()))
     return EdgeFacts(
