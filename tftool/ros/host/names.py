@@ -19,12 +19,7 @@ _SUBSTITUTION = re.compile(r"\{([^{}]*)\}")
 
 
 class Fault(NamedTuple):
-    """Rule of ROS 2 that a name breaks, and the position in the name.
-
-    Attributes:
-        reason: Rule that the name breaks.
-        at: Index of the first wrong character.
-    """
+    """Rule of ROS 2 that a name breaks, and the index of the first wrong character."""
 
     reason: str
     at: int

@@ -83,11 +83,7 @@ WITH_MODULES: set[str] = set()
 
 
 class Workspace:
-    """Packages in the source folders below the folder `start` and in the workspace around it.
-
-    Attributes:
-        start: Absolute path of the folder.
-    """
+    """Packages in the source folders below the folder `start` and in the workspace around it."""
 
     def __init__(self, start: Path, near: Path | None = None) -> None:
         """Find the packages around and below the folder `start`; skip unreadable packages.

@@ -41,12 +41,7 @@ class LaunchDescriptionEntity:
 
 
 class LaunchDescription(LaunchDescriptionEntity):
-    """List of the actions of a launch.
-
-    Attributes:
-        entities: The actions.
-        deprecated_reason: Reason why the description is deprecated; None if not deprecated.
-    """
+    """List of the actions of a launch; with a `deprecated_reason`, one that is deprecated."""
 
     def __init__(
         self, initial_entities: Iterable[Any] | None = None, *, deprecated_reason: str | None = None

@@ -62,11 +62,7 @@ class ProcessStarted(RunningProcessEvent):
 
 
 class ProcessExited(RunningProcessEvent):
-    """Event that a process has ended.
-
-    Attributes:
-        returncode: Exit status of the process.
-    """
+    """Event that a process has ended with the exit status `returncode`."""
 
     name = "launch.events.process.ProcessExited"
 
@@ -103,11 +99,7 @@ class ShutdownProcess(Event):
 
 
 class SignalProcess(ShutdownProcess):
-    """Request to send a signal to the processes that a matcher function selects.
-
-    Attributes:
-        signal: Signal to send, as a `signal.Signals`.
-    """
+    """Request to send the signal `signal` to the processes that a matcher function selects."""
 
     name = "launch.events.process.SignalProcess"
 

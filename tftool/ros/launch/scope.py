@@ -165,12 +165,7 @@ class SetRemap(Action):
 
 
 class SetParameter(Action):
-    """Action that sets a parameter for the nodes started later in the scope.
-
-    Attributes:
-        name: Name of the parameter, as substitutions.
-        value: Value of the parameter, or substitutions for it.
-    """
+    """Action that sets a parameter for the nodes started later in the scope."""
 
     def __init__(self, name: Any, value: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)

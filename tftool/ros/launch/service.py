@@ -19,11 +19,7 @@ from tftool.ros.launch.events import Event
 
 
 class LaunchService:
-    """Service that runs launch descriptions inside the program that created the service.
-
-    Attributes:
-        errors: Sentences about errors of the launch itself and of its processes.
-    """
+    """Service that runs launch descriptions inside the program that created the service."""
 
     def __init__(
         self, *, argv: Any = None, noninteractive: bool = False, debug: bool = False
@@ -33,7 +29,7 @@ class LaunchService:
         self._launch: Launch | None = None
         self._owner: program.Program | None = None
         self._threads: set[int] = set()  # threads whose callers get a coroutine
-        self.errors: list[str] = []
+        self.errors: list[str] = []  # of the launch itself and of its processes
 
     def include_launch_description(self, launch_description: LaunchDescription) -> None:
         """Add a launch description for the next `run`; if the launch is running, execute it now."""

@@ -24,18 +24,14 @@ READY_WITHIN = 15.0
 
 
 class ReadyToTest(Action):
-    """Action in a launch description that starts the tests of the launch.
-
-    Attributes:
-        callbacks: Functions to call when the tests may start.
-    """
+    """Action that starts the tests of a launch by calling the functions in `callbacks`."""
 
     def __init__(self) -> None:
         super().__init__()
         self.callbacks: list[Callable[[], object]] = []
 
     def execute(self, context: LaunchContext) -> Any:
-        """Call the callbacks, which start the tests."""
+        """Start the tests."""
         for callback in self.callbacks:
             callback()
 
@@ -76,11 +72,7 @@ class Test(ExecuteProcess):
 
 
 class GTest(Test):
-    """Action that runs an executable with GoogleTest tests.
-
-    Attributes:
-        path: Path of the executable.
-    """
+    """Action that runs the executable at `path`, which contains GoogleTest tests."""
 
     def __init__(self, *, path: Any, **kwargs: Any) -> None:
         super().__init__(cmd=[path], **kwargs)
@@ -88,11 +80,7 @@ class GTest(Test):
 
 
 class PyTest(Test):
-    """Action that runs the tests in a file with pytest.
-
-    Attributes:
-        path: Path of the file.
-    """
+    """Action that runs the tests in the file at `path` with pytest."""
 
     def __init__(self, *, path: Any, **kwargs: Any) -> None:
         super().__init__(cmd=[sys.executable, "-m", "pytest", path], **kwargs)

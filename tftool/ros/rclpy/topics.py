@@ -269,11 +269,7 @@ class Subscription(TopicEnd):
 
 
 class RosoutPublisher(Publisher):
-    """Publisher of a node's log messages on /rosout.
-
-    Attributes:
-        logger: Name of the node's logger; names of its child loggers begin with this name.
-    """
+    """Publisher on /rosout of the messages of a node's logger, whose name is `logger`."""
 
     logger: str
 
