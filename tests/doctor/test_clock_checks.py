@@ -293,7 +293,7 @@ def test_two_sensors_of_one_clock_are_one_finding():
         made.hears(topic, "laser", 50.0, "sensor_msgs/Imu", latency=-0.4)
     (finding,) = (one for one in made.judged().findings if one.id == "clock-offset")
     assert finding.topics == ("/imu", "/magnet")
-    assert finding.message == "/imu, /magnet are 400 ms off the other clocks"
+    assert finding.message == "/imu, /magnet are 400 ms ahead of the other clocks"
     # A robot's clock is off by more than a minute. Its streams have different delays, and the
     # network delays the last messages.
     made = Robot(log_from=START)
@@ -303,8 +303,10 @@ def test_two_sensors_of_one_clock_are_one_finding():
         made.moving("odom", "base_link", latency=late - 79.68, **times)
         made.hears("/odom", "odom", 10.0, "nav_msgs/Odometry", latency=late - 79.6, **times)
         made.hears("/scan", "laser", latency=late - 79.83, **times)
+    assert "79.83 s after their reception, constant to 0 ms" in found(made, "shifted-clock").message
+    made.hears("/map", "odom", 1.0, "nav_msgs/OccupancyGrid")
     (finding,) = (one for one in made.judged().findings if one.id == "clock-offset")
-    words = "/odom, /scan are 79.60 s to 79.83 s ahead of the recorder's clock"
+    words = "/odom, /scan, base_link in odom are 79.60 s to 79.83 s ahead of the recorder's clock"
     assert finding.message == words
 
 
@@ -539,9 +541,9 @@ def test_a_localiser_out_of_order_hangs_on_the_odometry_that_its_scans_wait_for(
 def test_a_sensor_alone_is_off_the_recorders_clock():
     made = Robot()
     made.hears("/scan", "laser", latency=-1.8)
-    assert found(made, "clock-offset").message == "/scan is 1.80 s off the recorder's clock"
+    assert found(made, "clock-offset").message == "/scan is 1.80 s ahead of the recorder's clock"
     made.hears("/points", "laser", kind="sensor_msgs/PointCloud2")
-    assert found(made, "clock-offset").message == "/scan is 1.80 s off the other clocks"
+    assert found(made, "clock-offset").message == "/scan is 1.80 s ahead of the other clocks"
     # Without a transform, the axes of an image are unknown.
     made.hears("/image", "camera", kind="sensor_msgs/Image")
     assert found(made, "image-not-optical").because_of == "no-transforms"

@@ -8,8 +8,9 @@ import numpy as np
 from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, Duration, seconds
 from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Confidence, Fact, Fix, Hit, Severity
+from tftool.doctor.gap_checks import REPORTS
 from tftool.doctor.missing_joins import own_trees
-from tftool.doctor.model import Limits, Model, Shift
+from tftool.doctor.model import SHIFT, Limits, Model, Shift
 from tftool.doctor.stamp_checks import COMPARE_CLOCKS
 from tftool.doctor.stamp_stream import BASES, JOINT_STATES, Heard, Track, last_part
 from tftool.doctor.wording import several, span
@@ -345,11 +346,12 @@ def wild_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     Severity.WARNING,
     rule="the median latency of a sensor's messages is below -{seconds:g} s (for a laser scan, "
     "after the duration of one scan is added). Or messages or transforms are stamped by the "
-    "recorder's clock in a recording whose other stamps are shifted as a whole. An error if a "
-    "transform is off by more than the cache time. A note up to {certain:g} s. A note also "
-    "if the latencies of steady streams (95 % within {spread:g} s, {samples:g} messages or "
-    "more) form groups more than {apart:g} s apart; streams that are ahead, or late by about "
-    "one period, are left out",
+    "recorder's clock in a recording whose other stamps are shifted as a whole. Or the latencies "
+    "of a topic without positions are above {far:g} s, before or after reception, and equal to "
+    "within 1 %, for {samples:g} messages or more. An error if a transform is off by more than the "
+    "cache time. A note up to {certain:g} s. A note also if the latencies of steady streams (95 % "
+    "within {spread:g} s, {samples:g} messages or more) form groups more than {apart:g} s apart; "
+    "streams that are ahead, or late by about one period, are left out",
     headline="{topic} {found}",
     detail="{groups}{sources}",
     consequence="{so}",
@@ -362,7 +364,14 @@ def wild_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     links=threads(
         "turtlebot/turtlebot4_robot#8", "DFKI-NI/mir_robot#7", "ROBOTIS-GIT/turtlebot3#618"
     ),
-    limits={"seconds": 0.02, "certain": 0.05, "spread": 0.02, "apart": 0.05, "samples": 20},
+    limits={
+        "seconds": 0.02,
+        "certain": 0.05,
+        "spread": 0.02,
+        "apart": 0.05,
+        "samples": 20,
+        "far": 60.0,
+    },
     needs=(
         "log times",
         "headers",
@@ -378,6 +387,9 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
         ahead = -track.median_latency
         alike[_same(alike, ahead)].append(track)
     for heard in model.heard:
+        if not heard.is_spatial and _is_far_off(model, heard, limits):
+            ahead = -heard.median_latency
+            alike[_same(alike, ahead)].append(heard)
         if len(heard.stamps) < 3 or not heard.is_spatial:
             continue
         allowed = limits["seconds"] * NANOSECONDS
@@ -388,6 +400,10 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
         ahead = -heard.median_latency
         if ahead > allowed or _is_unshifted(model, heard):
             alike[_same(alike, ahead)].append(heard)
+    for track in model.dynamic if alike and model.shift is None else ():
+        ahead = -track.median_latency
+        if ahead > SHIFT and _same(alike, ahead) in alike:
+            alike[_same(alike, ahead)].append(track)
     if _is_shared(model, list(alike)):
         return  # the recorder's clock is off, and all stamps agree
     groups = _offsets(model) if alike else []
@@ -397,7 +413,7 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
         heards = [one for one in streams if isinstance(one, Heard)]
         offsets = sorted(abs(one.median_latency) for one in streams)
         by = span(offsets[0])
-        if offsets[-1] - offsets[0] > _ONE_CLOCK:
+        if offsets[-1] - offsets[0] > _ONE_CLOCK and span(offsets[-1]) != by:
             by += f" to {span(offsets[-1])}"
         told = ""
         if model.shift is not None and len(heards) < len(streams):
@@ -407,11 +423,12 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
         so += " yet" if ahead > 0 else " any more"
         if 0 < ahead <= model.settings.cache_time:
             so = f"each lookup at these stamps has to wait {by} longer, or fails"
-        off = f"off {other}"
+        side = "ahead of" if ahead > 0 else "behind"
+        off = f"{side if model.shift is None else 'off'} {other}"
         if told:
             so = "no lookup across the two clocks can succeed"
         elif _is_of_transforms(model, ahead):
-            off = f"{'ahead of' if ahead > 0 else 'behind'} the recorder's clock"
+            off = f"{side} the recorder's clock"
             so = (
                 "lookups among the robot's own data work; a node on the recorder's computer that "
                 "asks for its present time gets another moment"
@@ -440,6 +457,16 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
         )
     if not alike:
         yield from _groups_apart(model, limits)
+
+
+def _is_far_off(model: Model, heard: Heard, limits: Limits) -> bool:
+    """Whether all messages of a topic have a latency that no queue causes, equal to within 1 %."""
+    is_judged = model.shift is None and not heard.families[0] and not heard.type.startswith(REPORTS)
+    if not is_judged or len(heard.stamps) < limits["samples"]:
+        return False
+    low, high = (int(percentile(heard.latency, percent)) for percent in (5, 95))
+    off = abs(heard.median_latency)
+    return off > limits["far"] * NANOSECONDS and high - low < off // 100
 
 
 def _same(known: Iterable[Duration], ahead: Duration) -> Duration:

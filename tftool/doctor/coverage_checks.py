@@ -12,7 +12,7 @@ from tftool.base.stamps import NANOSECONDS
 from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Fix, Hit, Severity
 from tftool.doctor.gap_checks import gap, holes
-from tftool.doctor.missing_joins import has_base, is_mount, static_publisher
+from tftool.doctor.missing_joins import has_base, is_mount, own_base, static_publisher
 from tftool.doctor.model import WARM_UP, Limits, Model
 from tftool.doctor.stamp_checks import stands_still
 from tftool.doctor.stamp_stream import NEVER, PLACED, Heard, Track, last_part
@@ -70,7 +70,8 @@ def static_missing(model: Model, limits: Limits) -> Iterator[Hit]:
     names = sorted({heard.frame.removeprefix("/") for heard in unknown})
     fixes = [Fix(cure)]
     if not model.lacks_state_publisher:
-        command = static_publisher("PARENT", names[0], ros1=is_ros1(model.evidence))
+        parent = own_base(model, names[0]) or "PARENT"
+        command = static_publisher(parent, names[0], ros1=is_ros1(model.evidence))
         each = " for each of the frames" if len(names) > 1 else ""
         fixes.append(Fix(f"if nothing sends them, publish the mount{each}:", command))
     slashed = sorted({heard.topic for heard in unknown if heard.frame.startswith("/")})

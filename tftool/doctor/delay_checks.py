@@ -106,7 +106,8 @@ def _falls_behind(model: Model, track: Track | Heard, limits: Limits) -> Hit | N
         # Everything arrives at once: a backlog, as at the start of a recorder.
         return None
     others: list[Track | Heard] = [h for h in model.heard if h.is_spatial]
-    others += [one for one in model.dynamic if one is not track]
+    # A localiser dates its transforms ahead, so they always seem to be in time.
+    others += [one for one in model.dynamic if one is not track and not one.is_localisation]
     prompt = [other.name for other in others if _is_prompt(other, begin, end, tenth)]
     if not prompt:
         return None

@@ -90,7 +90,7 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
     """A transform ends long before the recording does."""
     length = model.end - model.start
     alive: list[Track | Heard] = [*model.dynamic]
-    alive += [heard for heard in model.heard if not heard.type.startswith(_REPORTS)]
+    alive += [heard for heard in model.heard if not heard.type.startswith(REPORTS)]
     # After a pause of all streams, the first of them may arrive just before the clock jumps.
     stop = model.end - LAP if model.laps else NEVER
     ends = {id(one): int(one.logs[one.logs < stop].max(initial=model.start)) for one in alive}
@@ -208,7 +208,7 @@ def _needed_in(model: Model, track: Track, begin: int, end: int) -> int:
     )
 
 
-_REPORTS = ("rosgraph_msgs/", "rcl_interfaces/", "diagnostic_msgs/", "bond/")
+REPORTS = ("rosgraph_msgs/", "rcl_interfaces/", "diagnostic_msgs/", "bond/")
 """Packages of messages about nodes, which go on when the data of a robot is over."""
 
 _SILENT = 60 * NANOSECONDS
@@ -569,7 +569,7 @@ def _is_silent(stream: Track | Heard, begin: int, end: int) -> bool:
     For a stream of low rate, or of messages about nodes, the result is False. The stamps `begin`
     and `end` bound the gap.
     """
-    if isinstance(stream, Heard) and stream.type.startswith(_REPORTS):
+    if isinstance(stream, Heard) and stream.type.startswith(REPORTS):
         return False
     margin = (end - begin) // 5
     low, high = np.searchsorted(np.sort(stream.stamps), (begin + margin, end - margin))

@@ -78,7 +78,8 @@ def proposed_frame(model: Model, name: str, kinds: Iterable[str] = ()) -> Join |
         found = _described(model, name, tree.frames) or _in_odometry(model, alone, tree)
         if found is not None:
             return found
-    base = next((one for tree in model.trees if (one := base_of(tree))), "")
+    bases = [one for tree in model.trees if (one := base_of(tree))]
+    base = own_base(model, name) or (bases[0] if len({prefix(one) for one in bases}) == 1 else "")
     if model.lacks_statics and not is_mount(model, name):
         return None
     if is_world(name) or not any(last_part(kind) in _MOUNTED for kind in kinds):
@@ -229,7 +230,12 @@ def _localised(tree: Tree, other: Tree) -> Join | None:
     """
     if not last_part(tree.root).startswith(("odom", "camera_init")):
         return None
-    maps = sorted(frame for frame in other.frames if last_part(frame) == "map")
+    # The map of another robot is not that of this one.
+    maps = sorted(
+        frame
+        for frame in other.frames
+        if last_part(frame) == "map" and len({prefix(frame), prefix(tree.root), ""}) < 3
+    )
     if not maps:
         return None
     why = f"REP-105 has a localiser publish {tree.root} in {maps[0]}"
@@ -244,7 +250,7 @@ def _by_another_name(model: Model, tree: Tree, other: Tree) -> Join | None:
     """
     root = tree.root
     for name in sorted(other.frames):
-        if _prefix(name) != _prefix(root) or distinctive_words(name) != distinctive_words(root):
+        if prefix(name) != prefix(root) or distinctive_words(name) != distinctive_words(root):
             continue
         why = f"{name} is near: {root} may be a frame of the same part"
         if model.lacks_statics and model.evidence.recorded:
@@ -287,7 +293,7 @@ def _are_two_robots(main: Tree, lesser: Tree) -> bool:
     if not ours or not theirs:
         return False
     same_names = {last_part(name) for name in ours} & {last_part(name) for name in theirs}
-    return bool(same_names) or {_prefix(n) for n in ours}.isdisjoint(_prefix(n) for n in theirs)
+    return bool(same_names) or {prefix(n) for n in ours}.isdisjoint(prefix(n) for n in theirs)
 
 
 def _bases(tree: Tree) -> set[str]:
@@ -295,7 +301,8 @@ def _bases(tree: Tree) -> set[str]:
     return names if len(tree.frames) > 1 else set()
 
 
-def _prefix(name: str) -> str:
+def prefix(name: str) -> str:
+    """Return the part of a frame name up to its last slash, such as the name of a robot."""
     return name.removesuffix(last_part(name))
 
 
@@ -306,6 +313,12 @@ def base_of(tree: Tree) -> str:
         if found:
             return found[0]
     return ""
+
+
+def own_base(model: Model, name: str) -> str:
+    """Return the base frame with the prefix of a frame name; empty without a prefix or a base."""
+    bases = [one for tree in model.trees if (one := base_of(tree))]
+    return next((one for one in bases if prefix(name) and prefix(one) == prefix(name)), "")
 
 
 def static_publisher(

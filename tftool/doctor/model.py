@@ -93,7 +93,8 @@ class Shift:
     Attributes:
         by: Time from stamp to reception of most messages, nanoseconds; negative if the stamps are
             later than reception.
-        spread: Median variation (10 % to 90 % quantile) of this time in a stream, nanoseconds.
+        spread: Median variation (10 % to 90 % quantile) of this time in a stream, nanoseconds; up
+            to the median if all streams are later than reception, because of delays in bursts.
         streams: Number of streams (edges and topics) with this shift.
         of: Number of all compared streams.
     """
@@ -271,8 +272,14 @@ class Model:
 
     @cached_property
     def lacks_state_publisher(self) -> bool:
-        """Whether joint states arrived, but all transforms come from odometry or localisers."""
-        return bool(self.joint_topics) and all(track.is_odometry for track in self.tracks)
+        """Whether joint states arrived, but all transforms come from odometry or localisers.
+
+        Without a description, joint states on a topic with another name than joint_states may be
+        the wheels that a driver measures.
+        """
+        is_usual = any(last_part(topic) == "joint_states" for topic in self.joint_topics)
+        is_usual |= bool(self.joint_topics) and self.evidence.robot is not None
+        return is_usual and all(track.is_odometry for track in self.tracks)
 
     @cached_property
     def start(self) -> Stamp:
@@ -572,7 +579,7 @@ class Model:
             low, middle, high = np.percentile(delays, (10, 50, 90), method="nearest").tolist()
             late.append(int(middle))
             kept.append(stream)
-            spreads.append(int(high) - int(low))
+            spreads.append((int(high) - int(low), int(middle) - int(low)))
             if is_moving:
                 moving.append(int(middle))
         by = sorted(late)[len(late) // 2] if late else 0
@@ -582,9 +589,15 @@ class Model:
         # Compared with days, seconds are network delay; the smallest delay shows the clock.
         near = max(LAP, abs(by) // 10_000)
         alike = [spread for one, spread in zip(late, spreads, strict=True) if abs(one - by) < near]
-        spread = sorted(alike)[len(alike) // 2]
+        # Bursts delay stamps, but do not set those of all streams after reception.
+        is_ahead = by < 0 and len(alike) == len(late) > 2
+        spread = sorted(one[is_ahead] for one in alike)[len(alike) // 2]
         if 2 * len(alike) <= len(late) or spread > LAP:
             return
+        prompt = [s for one, s in zip(late, kept, strict=True) if abs(one) < LAP]
+        kinds = {type(s) for s in prompt if not (isinstance(s, Track) and s.is_localisation)}
+        if len(kinds) > 1:
+            return  # a part of the robots, with transforms and messages, is on the recorder's clock
         at_once = [s for one, s in zip(late, kept, strict=True) if abs(one - by) < _ONE_CLOCK]
         if all(_copies(at_once[0], other) for other in at_once[1:]):
             # A late stream and its copies do not show the clock, so use the freshest stream.

@@ -10,7 +10,7 @@ from tftool.base.plain_text import count
 from tftool.base.stamps import NANOSECONDS
 from tftool.doctor.check import REP105, checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
-from tftool.doctor.missing_joins import base_of, mount_command, proposed_join
+from tftool.doctor.missing_joins import base_of, mount_command, prefix, proposed_join
 from tftool.doctor.model import Limits, Model, Tree
 from tftool.doctor.stamp_stream import PLACED, Heard, Track, last_part, overlap
 from tftool.doctor.wording import is_ros1, metres, several
@@ -149,16 +149,17 @@ def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
         if tree.is_circle:
             continue
         topics = _messages_in(model, tree)
-        join = proposed_join(model, main, tree)
+        own = _own_robot(model, tree) or main
+        join = proposed_join(model, own, tree)
         is_placed = any(last_part(h.type) in PLACED and h.frame in tree.frames for h in model.heard)
-        severity = Severity.ERROR if is_placed and base_of(main) else Severity.WARNING
+        severity = Severity.ERROR if is_placed and base_of(own) else Severity.WARNING
         is_short = model.evidence.recorded and (
             model.end - model.start < limits["seconds"] * NANOSECONDS
         )
         is_robot = join is not None and join.edge is None
         if is_short or is_robot or _is_convention(tree, topics):
             severity = Severity.NOTE
-        mount = "" if join is not None else mount_command(model, main, tree.root)
+        mount = "" if join is not None else mount_command(model, own, tree.root)
         fix = nothing_says(model, "{named}", mount) if join is None else join.fix
         used = [f"{topic} ({number} messages)" for topic, number in topics.items()]
         yield Hit(
@@ -168,7 +169,7 @@ def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
             facts={
                 "root": tree.root,
                 "named": tree.root,
-                "main_root": main.root,
+                "main_root": own.root,
                 "number": number,
                 "used": used,
                 "users": f"; used by {several(used)}" if used else "; no message is in it",
@@ -179,8 +180,19 @@ def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
             },
             fixes=(fix,),
             alone=join is not None,
-            group=mount,
+            group=f"{own.root} {mount}",
         )
+
+
+def _own_robot(model: Model, tree: Tree) -> Tree | None:
+    """Return the tree with a base frame whose root has the prefix of another tree's root.
+
+    Return None without a prefix, and if a tree contains a base frame itself.
+    """
+    own = prefix(tree.root)
+    if not own or base_of(tree):
+        return None
+    return next((o for o in model.trees if base_of(o) and prefix(o.root) == own), None)
 
 
 def nothing_says(model: Model, root: str, mount: str = "") -> Fix:
