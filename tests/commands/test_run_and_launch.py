@@ -237,6 +237,11 @@ NODE = "import rclpy\nrclpy.init()\nnode = rclpy.create_node('mine')\n"
             "did you mean 'rcl_interfaces'? If not, the definitions of interfaces are",
         ),
         ("from my_types.srv import Add\n", 1, "the definitions of my_types are not among"),
+        (
+            "import os\nos.environ['AMENT_PREFIX_PATH']\n",
+            1,
+            "'AMENT_PREFIX_PATH'; a setup file of ROS 2 sets this variable: set it yourself",
+        ),
         ("import my_msgs.msg\n", 1, "put the package with its .msg, .srv and .action files into"),
         ("import rclpy\nrclpy.nope\n", 1, "'nope' of rclpy is not supported"),
         ("import cv_bridge\n", 1, "No module named 'cv_bridge'"),

@@ -134,6 +134,7 @@ def error_sentence(error: BaseException) -> str:
     return what if place is None else f"{what}\n    {place}"
 
 
+_SET_BY_ROS = [("AMENT_PREFIX_PATH",), ("COLCON_PREFIX_PATH",)]
 _UNEXPECTED = re.compile(r"([\w.]+)\(\) got an unexpected keyword argument '(\w+)'")
 _MISSING = re.compile(r"missing 1 required (?:keyword-only|positional) argument: '(\w+)'")
 _KEYWORD = re.compile(r"\b(\w+)\s*=(?!=)")
@@ -157,6 +158,8 @@ def _near_name(error: BaseException) -> str:
     frames = [frame for frame, _ in traceback.walk_tb(error.__traceback__)]
     if not frames or "did you mean" in str(error):
         return ""
+    if isinstance(error, KeyError) and error.args in _SET_BY_ROS:
+        return "; a setup file of ROS 2 sets this variable: set it yourself"
     if isinstance(error, AttributeError) and isinstance(error.name, str):
         return did_you_mean(error.name, dir(error.obj)) if error.obj is not None else ""
     # Python refuses a call in the calling frame, where the function's name is defined.
