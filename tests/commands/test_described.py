@@ -168,6 +168,11 @@ def test_words_with_an_assignment_are_arguments_of_xacro(tftool, tmp_path):
 
     assert "[1.000, 0.000, 2.000]" in tftool("echo", "foot", "lamp", str(path)).out
     assert "[1.000, 0.000, 7.500]" in tftool("echo", "foot", "lamp", str(path), "height:=7.5").out
+    for words in (["echo", "foot", "lamp"], ["tree"], ["info"]):
+        told = tftool(*words, str(path), "heigth:=7.5", "zzz:=1")
+        assert told.status == 0
+        assert "has no xacro argument 'heigth'; did you mean 'height'?\n" in told.err + told.out
+        assert "has no xacro argument 'zzz', and ignores its value.\n" in told.err + told.out
 
 
 @pytest.fixture

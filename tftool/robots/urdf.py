@@ -80,7 +80,9 @@ def load_description(
                 f"'{path}' contains xacro, which may run Python, and its name does not end in "
                 ".xacro: rename the file, or expand the file first (xacro FILE -o robot.urdf)"
             )
-        return parse_description(expand(Path(path), arguments or {}), f"{path} (expanded)")
+        expanded, notes = expand(Path(path), arguments or {})
+        description = parse_description(expanded, f"{path} (expanded)")
+        return replace(description, notes=(*notes, *description.notes))
     if arguments:
         given = ", ".join(f"{name}:={value}" for name, value in arguments.items())
         raise UsageError(f"'{path}' contains no xacro, so it has no arguments: leave out {given}")
@@ -95,7 +97,7 @@ def expand_xacro(path: str | Path, arguments: Mapping[str, str] | None = None) -
         UsageError: If the extra `xacro` is not installed.
     """
     text = _text_of(Path(path))
-    return expand(Path(path), arguments or {}) if is_xacro(text) else text
+    return expand(Path(path), arguments or {})[0] if is_xacro(text) else text
 
 
 def is_xacro(text: str) -> bool:

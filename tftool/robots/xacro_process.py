@@ -15,9 +15,10 @@ import sys
 import tempfile
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 from tftool.base.errors import InputError, UsageError
+from tftool.base.plain_text import did_you_mean
 from tftool.robots.mesh_folders import packages_around
 
 if sys.platform != "win32":
@@ -35,12 +36,15 @@ _INSTALLED = re.compile(r"install\(\s*DIRECTORY\s+([^()]*?)\s+DESTINATION\s+[\"'
 _MACRO = re.compile(r"<xacro:macro[^>]*\bname\s*=\s*[\"'](\w+)")
 
 
-def expand(path: Path, arguments: Mapping[str, str]) -> str:
-    """Return the text of a description with its xacro expanded in another process.
+def expand(path: Path, arguments: Mapping[str, str]) -> tuple[str, tuple[str, ...]]:
+    """Expand a description's xacro in another process.
 
     Args:
         path: Path of the file, to which paths of included files are relative.
         arguments: Values of xacro arguments.
+
+    Returns:
+        The text, and a sentence about each argument that the file does not use.
 
     Raises:
         InputError: If the file cannot be expanded within `TIME_LIMIT` and `MEMORY_LIMIT`.
@@ -61,7 +65,12 @@ def expand(path: Path, arguments: Mapping[str, str]) -> str:
     except ValueError:
         said = {"error": f"its process ended with status {ended.returncode}"}
     if "text" in said:
-        return str(said["text"])
+        unused = [name for name in arguments if name not in said["used"]]
+        return str(said["text"]), tuple(
+            f"'{path}' has no xacro argument '{name}'"
+            f"{did_you_mean(name, said['used']) or ', and ignores its value.'}"
+            for name in unused
+        )
     if missing := _NO_PACKAGE.search(said["error"]):
         raise InputError(
             f"{refused}: there is no package '{missing[1]}': add its parent folder to the "
@@ -80,10 +89,27 @@ def _main(path: str, arguments: str) -> None:
     # Discard output of the file's expressions: stdout is for the result only.
     with os.fdopen(os.dup(1), "w", encoding="utf-8") as answer:
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
-        json.dump(_expanded(path, json.loads(arguments)), answer)
+        json.dump(_expanded(path, _Arguments(json.loads(arguments))), answer)
 
 
-def _expanded(path: str, arguments: dict[str, str]) -> dict[str, str]:
+class _Arguments(dict[str, str]):
+    """Values of xacro arguments, with the names that the file declares or uses."""
+
+    def __init__(self, values: Mapping[str, str]) -> None:
+        super().__init__(values)
+        self.used: set[str] = set()
+
+    def __contains__(self, name: object) -> bool:
+        # xacro:arg looks whether a value was given.
+        self.used.add(str(name))
+        return super().__contains__(name)
+
+    def __getitem__(self, name: str) -> str:
+        self.used.add(name)
+        return super().__getitem__(name)
+
+
+def _expanded(path: str, arguments: _Arguments) -> dict[str, Any]:
     from xacrodoc import XacroDoc, packages, xacrodoc
 
     installed = packages.get_path
@@ -110,7 +136,8 @@ def _expanded(path: str, arguments: dict[str, str]) -> dict[str, str]:
                     "error": f"it only defines {'macros' if len(macros) > 1 else 'a macro'} "
                     f"({', '.join(macros[:5])}): name the file that uses them"
                 }
-        return {"text": str(expanded.dom.toprettyxml(indent="  "))}
+        text = str(expanded.dom.toprettyxml(indent="  "))
+        return {"text": text, "used": sorted(arguments.used)}
     except BaseException as error:  # expressions in the file can raise anything
         if _lacks_memory(error):
             return {"error": f"it needs more than {MEMORY_LIMIT >> 30} GB of memory"}
