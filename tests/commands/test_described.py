@@ -132,8 +132,9 @@ def test_tree_tells_programs_which_frames_move(tftool, robot):
     ("words", "told"),
     [
         (["--joint", "turm=1"], "has no joint 'turm'; did you mean 'turn'?"),
-        (["--joint", "elbow=1"], "has no joint 'elbow'; the movable joints are turn"),
+        (["--joint", "elbow=1"], "has no joint 'elbow'; the movable joints are turn, slide"),
         (["--joint", "bolt=1"], "joint 'bolt' is fixed, so it has no position"),
+        (["--joint", "slide=20deg"], "joint 'slide' is prismatic, so its position is a length"),
         (["--joint", "turn"], "write NAME=VALUE"),
         (["--joint", "turn=fast"], "write NAME=VALUE"),
         (["--joint", "turn=nan"], "write NAME=VALUE"),
@@ -142,6 +143,12 @@ def test_tree_tells_programs_which_frames_move(tftool, robot):
     ],
 )
 def test_what_fits_no_joint_or_argument_is_refused(tftool, robot, words, told):
+    slide = '<joint name="slide" type="prismatic"><parent link="foot"/><child link="tray"/>'
+    limit = (
+        '<limit lower="0" upper="1" effort="1" velocity="1"/></joint><link name="tray"/></robot>'
+    )
+    robot.write_text(ROBOT.replace("</robot>", slide + limit))
+
     result = tftool("tree", str(robot), *words)
 
     assert result.status == 2

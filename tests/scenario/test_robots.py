@@ -103,6 +103,26 @@ def test_a_joint_that_is_not_there_is_told(scenario, capsys):
     assert "did you mean 'turn'" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ("joints", "told"),
+    [
+        ("{reach: 20 deg}", "so its position is a length in metres, not an angle"),
+        ("{turn: 20 cm}", "so its position is an angle in radians or degrees, not a length"),
+    ],
+)
+def test_a_position_with_the_unit_of_another_joint_is_told(scenario, capsys, joints, told):
+    assert checked(scenario(f"{{file: crane.urdf, joints: {joints}}}")) == 3
+    assert told in capsys.readouterr().err
+
+
+def test_a_joint_beyond_its_limits_is_a_warning(scenario, capsys):
+    assert checked(scenario("{file: crane.urdf, joints: {reach: 900 m}}")) == 0
+
+    told = capsys.readouterr()
+    assert "arm.yaml:4:5: Joint 'reach' at 900 m is beyond its limits" in told.err
+    assert "ok, 1 warning" in told.out
+
+
 def two(first, second, expect="[]"):
     """Return the text of a scenario with two nodes."""
     return f"duration: 5 s\nnodes:\n  - {first}\n  - {second}\nexpect: {expect}\n"

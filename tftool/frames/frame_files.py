@@ -1,6 +1,6 @@
 """Reader of frames from files: recordings, robot descriptions, static transforms."""
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator
 from typing import TYPE_CHECKING
 
 from tftool.base.errors import UsageError
@@ -12,23 +12,6 @@ from tftool.robots.robot_model import Robot, load_urdf
 
 if TYPE_CHECKING:
     from tftool.recordings.contract import Progress
-
-
-def beyond_limits(robot: "Robot", given: Mapping[str, float]) -> Iterator[str]:
-    """Yield a sentence about each given position beyond the limits of the joint.
-
-    Args:
-        robot: Robot of the joints.
-        given: Positions of joints of the robot, radians or metres, by joint name.
-    """
-    for name, position in given.items():
-        joint = robot.joints[name]
-        if joint.limits is not None and not joint.limits[0] <= position <= joint.limits[1]:
-            lower, upper = joint.limits
-            yield (
-                f"Joint '{visible(name)}' at {position:.4g} {joint.unit} is beyond its limits, "
-                f"{lower:.4g} to {upper:.4g}."
-            )
 
 
 def joints_at_rest(robot: "Robot", given: Collection[str], name: str) -> Iterator[str]:
@@ -69,7 +52,7 @@ def _described(found: Found, options: DescriptionOptions) -> Frames:
     buffer = robot.buffer(options.joints)
     notes = (
         *robot.notes,
-        *beyond_limits(robot, options.joints),
+        *robot.beyond_limits(options.joints),
         *joints_at_rest(robot, options.joints, found.name),
     )
     return Frames(

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TypeAlias
+from typing import Literal, Self, TypeAlias
 
 from tftool.geometry.rigid import Transform, Vector3
 
@@ -135,6 +135,23 @@ class JointMimic:
     joint: str
     multiplier: float = 1.0
     offset: float = 0.0
+
+
+class JointPosition(float):
+    """Position of a joint that was given with a unit: a number of radians or metres.
+
+    Attributes:
+        unit: "rad" for an angle, "m" for a length.
+    """
+
+    __slots__ = ("unit",)
+    unit: Literal["rad", "m"]
+
+    def __new__(cls, position: float, unit: Literal["rad", "m"]) -> Self:
+        """Create the position from its value in radians or metres."""
+        made = super().__new__(cls, position)
+        made.unit = unit
+        return made
 
 
 @dataclass(frozen=True, slots=True)

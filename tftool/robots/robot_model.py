@@ -6,13 +6,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tftool.base.errors import UsageError
-from tftool.base.plain_text import did_you_mean
+from tftool.base.plain_text import did_you_mean, visible
 from tftool.base.stamps import Stamp
 from tftool.buffer.buffer import NO_LIMIT, Buffer
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.conversions import quaternion_from_axis_angle
 from tftool.geometry.rigid import Transform
-from tftool.robots.description import RobotDescription, RobotJoint, RobotLink
+from tftool.robots.description import JointPosition, RobotDescription, RobotJoint, RobotLink
 from tftool.robots.urdf import load_description, parse_description
 
 if TYPE_CHECKING:
@@ -73,7 +73,8 @@ class Robot:
             given: Positions by joint's name; limits are not enforced.
 
         Raises:
-            UsageError: If a joint is unknown or does not move, or a position is not finite.
+            UsageError: If a joint is unknown or does not move, or a position is not finite or has
+                another unit than the joint.
         """
         given = given or {}
         for name, position in given.items():
@@ -82,6 +83,17 @@ class Robot:
                 raise UsageError(
                     f"the position of joint '{name}' is {position}: give a finite number"
                 )
+            unit = self.joints[name].unit
+            if isinstance(position, JointPosition) and position.unit != unit:
+                wanted, given_as = (
+                    ("a length in metres", "an angle")
+                    if unit == "m"
+                    else ("an angle in radians or degrees", "a length")
+                )
+                raise UsageError(
+                    f"joint '{name}' is {self.joints[name].type}, so its position is {wanted}, "
+                    f"not {given_as}"
+                )
         positions: dict[str, float] = {}
         for name, joint in self.joints.items():
             if joint.moves:
@@ -89,6 +101,23 @@ class Robot:
                 known = given[leader.name] if leader.name in given else _rest(leader)
                 positions[name] = factor * known + offset
         return positions
+
+    def beyond_limits(self, given: Mapping[str, float]) -> Iterator[str]:
+        """Yield a sentence about each given position beyond the limits of the joint.
+
+        Args:
+            given: Positions of joints, radians or metres, by joint name.
+        """
+        for name, position in given.items():
+            joint = self.joints.get(name)
+            if joint is None or joint.limits is None:
+                continue
+            lower, upper = joint.limits
+            if not lower <= position <= upper:
+                yield (
+                    f"Joint '{visible(name)}' at {position:.4g} {joint.unit} is beyond its limits, "
+                    f"{lower:.4g} to {upper:.4g}."
+                )
 
     def transforms(
         self, given: Mapping[str, float] | None = None, stamp: Stamp = 0

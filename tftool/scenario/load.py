@@ -101,7 +101,7 @@ class _ScenarioReader:
         duration: Duration of the scenario; None before the duration is read.
         names: Names of the scenario's nodes; None until all nodes are read.
         judgements: Number of judgements in the run, for the expectations read so far.
-        not_a_tree: Mistakes of nodes that give a frame two parents, or close a loop.
+        warnings: Mistakes of nodes that do not prevent playing the scenario.
     """
 
     def __init__(self, arguments: Mapping[str, str], expects: bool) -> None:
@@ -110,7 +110,7 @@ class _ScenarioReader:
         self.duration: Duration | None = None
         self.names: tuple[str, ...] | None = None
         self.judgements = 0
-        self.not_a_tree: list[Mistake] = []
+        self.warnings: list[Mistake] = []
 
     def scenario(self, root: Node, reading: Reading, name: str) -> Scenario:
         """Read the whole scenario, in an order in which each part needs only earlier parts."""
@@ -144,7 +144,7 @@ class _ScenarioReader:
             expect=found["expect"],
             doctor=found["doctor"],
             source=reading.source.text,
-            not_a_tree=tuple(self.not_a_tree),
+            warnings=tuple(self.warnings),
         )
 
     # Arguments, which the other parts use.
@@ -259,6 +259,8 @@ class _ScenarioReader:
                 prefix, key = parameters["frame_prefix"], "frame_prefix"
                 joints = parameters["file"].joints.values()
                 moved = [f"joint {quoted(prefix + one.name)}" for one in joints if one.moves]
+                for text in parameters["file"].beyond_limits(parameters.get("joints") or {}):
+                    self.warnings.append(reading.source.mistake(item.place, text.rstrip(".")))
             elif "base" in parameters:
                 observers.append((item, stripped(parameters["base"])))
             known = next((one for one in moved if one in lines), None)
@@ -305,7 +307,7 @@ class _ScenarioReader:
             else:
                 parents.setdefault(child, (parent, item.place.line + 1))
                 continue
-            self.not_a_tree.append(reading.source.mistake(item.place, text))
+            self.warnings.append(reading.source.mistake(item.place, text))
 
     def node(self, item: Node, reading: Reading) -> tuple[str, str, Any]:
         """Return a node's kind, name and parameters; "" for an unknown kind or no name."""

@@ -19,6 +19,7 @@ from tftool.geometry.motion import Gains
 from tftool.geometry.rigid import Transform
 from tftool.messages.classes import build
 from tftool.messages.turtle_messages import Spawn
+from tftool.robots.description import JointPosition
 from tftool.scenario import document
 from tftool.scenario import units as values
 from tftool.scenario.fields import Key, Reader, Reading, quoted
@@ -80,9 +81,10 @@ def joint_positions(node: document.Node, reading: Reading) -> dict[str, float]:
 def _position(node: document.Node, reading: Reading) -> float:
     text = reading.text(node, "a position").strip()
     unit = text.lstrip("+-0123456789.eE").strip() if text[:1] not in "mk" else text
-    read: Reader = values.length if unit in values.LENGTH.factors else values.angle
+    is_length = unit in values.LENGTH.factors
+    read: Reader = values.length if is_length else values.angle
     position: float = read(reading.part(node, text), reading)
-    return position
+    return JointPosition(position, "m" if is_length else "rad") if unit else position
 
 
 def _beside(node: document.Node, reading: Reading, wanted: str) -> Path:

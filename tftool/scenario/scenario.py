@@ -115,8 +115,9 @@ class Scenario:
         expect: Expectations.
         doctor: Rules for the doctor, in expectations and in `tftool doctor`.
         source: Text of the scenario, to be read again with other arguments.
-        not_a_tree: Mistakes of nodes that give a frame two parents, close a loop, or make a frame
-            its own parent; a scenario for the doctor may contain them on purpose.
+        warnings: Mistakes of nodes that give a frame two parents, close a loop, make a frame its
+            own parent, or set a joint beyond its limits; a scenario for the doctor may contain them
+            on purpose.
     """
 
     name: str
@@ -130,7 +131,7 @@ class Scenario:
     expect: tuple[Expectation, ...]
     source: str = field(repr=False)
     doctor: DoctorRules = NO_RULES
-    not_a_tree: tuple[Mistake, ...] = ()
+    warnings: tuple[Mistake, ...] = ()
 
 
 def _clock(duration: Duration) -> str:

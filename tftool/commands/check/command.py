@@ -73,7 +73,7 @@ def _judge(
             why = f"No scenario ({', '.join(SUFFIXES)}) is in the folder '{name}'."
         complain("tftool", why)
         return Report(Path(name).stem or name, name, (), failure=why), False
-    warnings = tuple(str(mistake) for mistake in scenario.not_a_tree) if own_nodes else ()
+    warnings = tuple(str(mistake) for mistake in scenario.warnings) if own_nodes else ()
     for warning in warnings:
         notice(visible_lines(warning))
     log = _RunLog(scenario)

@@ -19,7 +19,6 @@ from tftool.doctor.joint_chain import chained
 from tftool.doctor.model import Model, Settings
 from tftool.doctor.trace import Question, message_of
 from tftool.drawing import explanation_view, joint_chain_view
-from tftool.frames.frame_files import beyond_limits
 from tftool.frames.source_options import At, checked_moment
 from tftool.opener import named
 from tftool.recordings.find import Kind
@@ -100,7 +99,7 @@ def _explain_joints(
     robot, joints = opened.robot, connection.robot.joints
     assert robot is not None
     told = chained(robot, joints, *frames, description)
-    for note in (*robot.notes, *beyond_limits(robot, joints)):
+    for note in (*robot.notes, *robot.beyond_limits(joints)):
         notice(visible(note))
     _print(joint_chain_view, told, for_programs=for_programs)
     return ExitStatus.DONE if told.available else ExitStatus.NO_TRANSFORM

@@ -18,7 +18,7 @@ from tftool.drawing.solids import Solids, solids_of
 from tftool.drawing.space import SpaceFrame, SpacePicture
 from tftool.drawing.space_file import drawn_file
 from tftool.drawing.theme import DARK, LIGHT
-from tftool.frames.frame_files import beyond_limits, load_described
+from tftool.frames.frame_files import load_described
 from tftool.geometry.rigid import Transform
 from tftool.opener import named
 from tftool.recordings.find import Kind
@@ -151,7 +151,7 @@ def run(connection: Connection, options: RobotOptions) -> ExitStatus:
     if options.link is not None and options.link not in described.links:
         raise UsageError(_no_link(described, options.link))
     described.positions(connection.robot.joints)
-    for note in (*described.notes, *beyond_limits(described, connection.robot.joints)):
+    for note in (*described.notes, *described.beyond_limits(connection.robot.joints)):
         notice(visible(note))
 
     folders = MeshFolders(found.paths[0], options.meshes or [])

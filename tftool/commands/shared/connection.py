@@ -308,10 +308,13 @@ def read(
 
 
 def _joint(word: str) -> tuple[str, float]:
+    from tftool.robots.description import JointPosition
+
     name, equals, text = word.rpartition("=")
-    factor = math.radians(1.0) if text.endswith("deg") else 1.0
     try:
-        position = float(text.removesuffix("deg")) * factor
+        position = float(text.removesuffix("deg"))
+        if text.endswith("deg"):
+            position = JointPosition(math.radians(position), "rad")
     except ValueError:
         position = math.nan
     if not name or not equals or not math.isfinite(position):

@@ -84,8 +84,8 @@ class _OfRobots:
     """Options of commands whose FROM may be a robot description."""
 
     joint: list[str] | None = option(
-        "Position of a joint in rad or m, or in degrees as 30deg. Repeat the option for more "
-        "joints.",
+        "Position of a joint in rad or m, or of a turning joint as 30deg. Repeat the option for "
+        "more joints.",
         metavar="NAME=VALUE",
         panel=ROBOT,
     )

@@ -21,7 +21,7 @@ from tftool.commands.shared.notices import notice, tell_news
 from tftool.commands.shared.on_screen import at_rest, driver_of
 from tftool.commands.shared.progress_bars import Bar, interruptible
 from tftool.commands.view import ViewOptions
-from tftool.frames.frame_files import beyond_limits, load_described
+from tftool.frames.frame_files import load_described
 from tftool.frames.frames import Frames
 from tftool.opener import named
 from tftool.recordings.find import Found, Kind
@@ -135,7 +135,7 @@ def _published(
     robot = load_described(description, connection.robot)
     joints = connection.robot.joints
     robot.positions(joints)
-    for note in (*robot.notes, *beyond_limits(robot, joints)):
+    for note in (*robot.notes, *robot.beyond_limits(joints)):
         notice(visible(note))
     world = World(connection.providers.wall_clock())
     RobotStatePublisher(world, robot=robot, publish_frequency=0.0)
