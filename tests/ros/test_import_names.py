@@ -154,6 +154,18 @@ def test_messages_become_mappings_yaml_and_csv():
         assert message_to_csv(message) == "0,0,map,1.5,0.0,0.0"
 
 
+def test_interfaces_are_found_by_the_argument_named_identifier():
+    with ros_free():
+        from geometry_msgs.msg import PointStamped
+        from rosidl_runtime_py.utilities import get_action, get_message, get_service
+        from std_srvs.srv import Trigger
+        from turtlesim.action import RotateAbsolute
+
+        assert get_message(identifier="geometry_msgs/msg/PointStamped") is PointStamped
+        assert get_service(identifier="std_srvs/srv/Trigger") is Trigger
+        assert get_action(identifier="turtlesim/action/RotateAbsolute") is RotateAbsolute
+
+
 def test_the_distribution_is_set_for_programs_and_is_no_sourced_ros(monkeypatch):
     monkeypatch.delenv("ROS_DISTRO", raising=False)
     ask = (

@@ -3,7 +3,6 @@
 import math
 from collections import OrderedDict
 from collections.abc import Mapping, Sequence
-from functools import partial
 from typing import Any
 
 from tftool.base.errors import InputError, UsageError
@@ -259,10 +258,19 @@ def set_message_fields(msg: Any, values: Mapping[str, Any], **_: Any) -> None:
             fill(msg, {name: value})
 
 
-# Functions that return the class with a full name, such as "package/msg/Name".
-get_message = partial(interface, kind="msg")
-get_service = partial(interface, kind="srv")
-get_action = partial(interface, kind="action")
+def get_message(identifier: str) -> Any:
+    """Return the message class with the full name "package/msg/Name"."""
+    return interface(identifier, "msg")
+
+
+def get_service(identifier: str) -> Any:
+    """Return the service class with the full name "package/srv/Name"."""
+    return interface(identifier, "srv")
+
+
+def get_action(identifier: str) -> Any:
+    """Return the action class with the full name "package/action/Name"."""
+    return interface(identifier, "action")
 
 
 def get_interface(identifier: str) -> Any:
