@@ -271,3 +271,26 @@ def test_a_single_wrong_sample_among_slow_steps_and_turns_is_an_outlier():
         pose = (0.0, 0.0, where, *turned(0.2 * (tick > 99) + 0.4 * (tick > 100), 1))
         made.sent("camera", "tool", tick / 25 + 0.1 * (tick // 8), pose)
     assert ids(made) == ["outlier"]
+
+
+@pytest.mark.parametrize(
+    ("parent", "number", "hz", "told"),
+    [
+        ("optitrack", 12, 100.0, True),
+        ("world", 12, 100.0, True),
+        ("camera", 12, 100.0, False),
+        ("world", 8, 100.0, False),
+        ("world", 12, 20.0, False),
+    ],
+)
+def test_many_small_turns_that_no_body_makes_are_outliers(parent, number, hz, told):
+    made = Robot()
+    for tick in range(1000):
+        flips = tick >= 200 and tick % 20 < 2 and tick < 200 + 20 * number
+        pose = (0.001 * tick, 0.0, 1.0, *turned(0.35 * flips))
+        made.sent(parent, "body", tick / hz, pose)
+    assert ("outlier" in ids(made)) is told
+    if told:
+        finding = found(made, "outlier")
+        assert finding.count == number
+        assert "jumps 20.1° away for 20 ms, and back, 12 times" in finding.message

@@ -365,12 +365,13 @@ _STEADY = math.radians(20.0)
     Severity.WARNING,
     rule="a pose jumps by more than {metres:g} m or {radians:g} rad, and by {times:g} times the "
     "95 % quantile of all steps, or by more than {metres:g} m, at more than {speed:g} m/s and "
-    "{times:g} times the 95 % quantile of all speeds. At most {samples:g} samples and {seconds:g} "
-    "s later, it is back: the rest is at most {back:%} of the jump. Such jumps are at most a share "
-    "of {share:g} of all steps. Turns of 150° or more of a moving frame that usually turns by less "
-    "than 20° may be more, and last {periods:g} periods. A note for one of three or more "
-    "objects of one publisher that come and go, and for a part of a robot if no sensor message is "
-    "in its frame. Not reported for a localiser",
+    "{times:g} times the 95 % quantile of all speeds. At most {samples:g} samples and "
+    "{seconds:g} s later, it is back: the rest is at most {back:%} of the jump. Such jumps are "
+    "at most a share of {share:g} of all steps. Turns of 150° or more of a moving frame that "
+    "usually turns by less than 20° may be more, and last {periods:g} periods. Ten turns of 15° "
+    "or more at more than 1000°/s count too, if a body in a world frame usually turns by less "
+    "than 1°. A note for one of three or more objects of one publisher that come and go, and for "
+    "a part of a robot if no sensor message is in its frame. Not reported for a localiser",
     headline="{named} for {longest:span}, and back{often}",
     detail="{edge}: {wrong} at {at:moment}, {jump:m} and {turn:deg} away{others}",
     consequence="a lookup at these times gets a wrong pose",
@@ -399,6 +400,8 @@ def outlier(model: Model, limits: Limits) -> Iterator[Hit]:
         jump, turn = float(track.apart(before, first)[0]), float(track.turned(before, first)[0])
         far = metres(jump) if jump > limits["metres"] else f"{np.degrees(turn):.3g}°"
         times = [moment(stamp) for stamp in track.stamps[begins].tolist()]
+        most = float(track.turned(places[[one - 1 for one, _ in spans]], begins).max())
+        up_to = f"; up to {np.degrees(most):.3g}°" if most > 2.0 * turn else ""
         yield hit_of(
             track,
             {
@@ -409,7 +412,7 @@ def outlier(model: Model, limits: Limits) -> Iterator[Hit]:
                 "at": int(track.stamps[begins[worst]]),
                 "jump": jump,
                 "turn": turn,
-                "others": f"; also at {several(times[:worst] + times[worst + 1 :])}"
+                "others": f"; also at {several(times[:worst] + times[worst + 1 :])}{up_to}"
                 if len(times) > 1
                 else "",
             },
@@ -433,12 +436,19 @@ def marker_fix(track: Track, turned: float | None = None) -> tuple[Fix, ...]:
         track: The edge.
         turned: Rotation of a jump, radians, which must be half a turn; None for any jump.
     """
-    if not is_world(track.parent) or track.is_odometry:
+    if not _is_measured(track):
         return ()
     if turned is not None and turned < _HALF_TURN:
         return ()
     text = "look whether its markers were hidden, or look alike from two sides"
     return (Fix(f"if motion capture sends it, {text}"),)
+
+
+def _is_measured(track: Track) -> bool:
+    """Whether an edge is the pose of a body in a world frame, as motion capture measures it."""
+    parent = track.parent.lower()
+    is_named = any(name in parent for name in ("optitrack", "vicon", "mocap", "qualisys"))
+    return (is_named or is_world(track.parent)) and not track.is_odometry
 
 
 def outliers(track: Track, limits: Limits) -> list[tuple[int, int]]:
@@ -450,7 +460,7 @@ def outliers(track: Track, limits: Limits) -> list[tuple[int, int]]:
     places = track.by_stamp
     some, others = places[:-1], places[1:]
     apart = track.strides
-    spins = track.has_turns(some, others, limits["radians"])
+    spins = track.has_turns(some, others, min(limits["radians"], _FLICKER))
     if len(places) < 3 or not (spins or (apart > limits["metres"]).any()):
         return []
     turned = track.turned(some, others)
@@ -465,8 +475,54 @@ def outliers(track: Track, limits: Limits) -> list[tuple[int, int]]:
     if (flips := _half_turns(apart, turned)) is not None:
         is_far = flips
         longest = max(longest, limits["periods"] * track.period)
-    elif np.count_nonzero(is_far) > max(2, limits["share"] * len(apart)):
+    elif (flickers := _flickers(track, turned)) is not None:
+        found = _runs_away(track, apart, turned, flickers, longest, {**limits, "radians": _FLICKER})
+        if len(found) >= _OFTEN:
+            return found
+    if flips is None and np.count_nonzero(is_far) > max(2, limits["share"] * len(apart)):
         return []
+    return _runs_away(track, apart, turned, is_far, longest, limits)
+
+
+def _flickers(track: Track, turned: Floats) -> Mask | None:
+    """Return a mask of the turns of a measured body that no body makes; None without them.
+
+    Args:
+        track: The edge.
+        turned: Rotation of each step, radians, shape (n,).
+    """
+    if not _is_measured(track):
+        return None
+    steps = np.maximum(np.diff(track.sorted_stamps) / NANOSECONDS, _SHORT)
+    mask: Mask = (turned > _FLICKER) & (turned / steps > _TOO_FAST)
+    is_steady = float(np.median(turned)) < _FLICKER / 15.0
+    return mask if is_steady and _OFTEN <= np.count_nonzero(mask) <= 0.1 * len(mask) else None
+
+
+_FLICKER = math.radians(15.0)
+"""Smallest rotation of a measured body that flickers between two poses, radians."""
+
+_TOO_FAST = math.radians(1000.0)
+"""Speed above which a body does not turn to and fro, radians per second."""
+
+_OFTEN = 10
+"""Minimum number of small turns away and back."""
+
+
+def _runs_away(
+    track: Track, apart: Floats, turned: Floats, is_far: Mask, longest: float, limits: Limits
+) -> list[tuple[int, int]]:
+    """Return the runs of samples between a jump away and a jump back, as `outliers` does.
+
+    Args:
+        track: The edge.
+        apart: Distance of each step, metres, shape (n,).
+        turned: Rotation of each step, radians, shape (n,).
+        is_far: Mask of the steps that may be jumps away, shape (n,).
+        longest: Maximum duration of a run, nanoseconds.
+        limits: Thresholds of `outlier`.
+    """
+    places = track.by_stamp
     found: list[tuple[int, int]] = []
     for out in np.flatnonzero(is_far).tolist():
         if found and found[-1][1] > out:
