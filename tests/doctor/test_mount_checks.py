@@ -128,6 +128,14 @@ def test_without_the_option_nothing_is_measured(tftool, run):
     assert "only with --mounts" in result.out
 
 
+def test_a_notice_names_the_mounts_that_were_compared(tftool, run):
+    assert "1 mount was compared with the motion: camera in base_link." in (
+        tftool("doctor", run[0], "--mounts").err
+    )
+    assert "no mount was compared" in tftool("doctor", "static", "--mounts").err
+    assert "mount" not in tftool("doctor", "static").err
+
+
 def test_a_mount_that_moves_in_the_recording_is_found_at_its_moment(tftool, tmp_path):
     file, _ = record(tmp_path / "moved.bag", moves=3.0)
     result, (found,) = mounts(tftool, file)

@@ -18,7 +18,7 @@ from tftool.commands.fleet.fleet import UNREADABLE, Examination, expanded
 from tftool.commands.fleet.workers import workers_of
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.evidence_sources import evidence_from, rules_of
-from tftool.commands.shared.notices import complain
+from tftool.commands.shared.notices import complain, notice
 from tftool.commands.shared.options import refuse
 from tftool.commands.shared.pairs import pairs_and_place
 from tftool.commands.shared.printer import line_width, write, write_file, write_json
@@ -28,6 +28,7 @@ from tftool.doctor.judge import CHECKS, Diagnosis, checks_named, judge, refuse_u
 from tftool.doctor.localisation_steps import steps_of
 from tftool.doctor.measured_mounts import MeasuredMount, measured_mounts
 from tftool.doctor.model import Model, Settings
+from tftool.doctor.wording import several
 from tftool.drawing import finding_view as view
 from tftool.drawing import step_view
 from tftool.drawing.sarif import as_sarif
@@ -305,6 +306,7 @@ def _diagnosed(connection: Connection, options: DoctorOptions, task: Examination
         if options.mounts:
             measured = measured_mounts(Model(evidence, task.settings), before)
             before += measured
+            notice(f"{visible(evidence.name)}: {_compared(measured)}")
             evidence = replace(evidence, mounts=measured)
         ignore = (*task.ignore, *rules.ignore)
         diagnosis = judge(
@@ -312,6 +314,18 @@ def _diagnosed(connection: Connection, options: DoctorOptions, task: Examination
         )
         judged.append((word or evidence.name, diagnosis))
     return judged
+
+
+def _compared(measured: Sequence[MeasuredMount]) -> str:
+    """Return which mounts were compared with the recorded motion, as text for a notice."""
+    if not measured:
+        return (
+            "no mount was compared, because no recorded motions of a robot and of a sensor on it "
+            "determine one."
+        )
+    names = several([f"{one.child} in {one.parent}" for one in measured])
+    are = "mount was" if len(measured) == 1 else "mounts were"
+    return f"{len(measured)} {are} compared with the motion: {visible(names)}."
 
 
 def _print(results: Judged, options: DoctorOptions) -> None:
