@@ -227,6 +227,18 @@ def test_a_localiser_that_turns_odometry_in_one_direction_is_a_note(share, told)
         assert "turns by 136° in odom" in notes[0].message
 
 
+@pytest.mark.parametrize(("step", "told"), [(0.375, True), (0.15, False)])
+def test_odometry_that_turns_too_far_is_a_warning_from_half_a_turn_on(step, told):
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", 20.0, lambda t: (0.0, 0.0, 0.0, *turned(3.0 * t)))
+    made.moving("map", "odom", 10.0, lambda t: (0, 0, 0, *turned(-step * int(2 * t))))
+    notes = [one for one in made.judged().findings if one.id == "odometry-corrected"]
+    assert [one.severity for one in notes] == [Severity.WARNING] * told
+    if told:
+        # From 0 s to 7.95 s at 3 rad/s: 23.85 rad.
+        assert "turns by 1,366° in odom" in notes[0].message
+
+
 def test_commands_after_the_last_transform_are_read_unless_all_are_zero(tmp_path):
     path = tmp_path / "run.bag"
     twist, tf = "geometry_msgs/msg/Twist", "tf2_msgs/msg/TFMessage"

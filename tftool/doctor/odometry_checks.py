@@ -411,14 +411,22 @@ def odometry_cancelled(model: Model, limits: Limits) -> Iterator[Hit]:
     Severity.NOTE,
     rule="later than {warm:g} s after its first sample, a localiser turns odometry in the map by "
     "{degrees:g}° or more in one direction (80 % of all its turns), in {samples:g} corrections or "
-    "more. This is a share of {share:g} or more of all turns of the robot in the odometry",
+    "more. This is a share of {share:g} or more of all turns of the robot in the odometry. A "
+    "warning for {far:g}° or more; then a share of {far_share:g} is enough",
     headline="{edge} turns by {net:deg} in one direction, while {child} turns by {all:deg} in "
     "{odom}",
     detail="{edge}: {count} corrections, in {length:span}; the turns of {child} are added up "
     "without sign",
     consequence="the rotation in the odometry, or the pose in the map, is wrong",
     fixes=(Fix("turn the robot by a known angle, and compare the odometry with it"),),
-    limits={"warm": 2.0, "degrees": 30.0, "samples": 10, "share": 0.3},
+    limits={
+        "warm": 2.0,
+        "degrees": 30.0,
+        "samples": 10,
+        "share": 0.3,
+        "far": 180.0,
+        "far_share": 0.15,
+    },
     because_of=(("edge", "publisher-conflict clock-offset odometry-cancelled teleport"),),
 )
 def odometry_corrected(model: Model, limits: Limits) -> Iterator[Hit]:
@@ -435,13 +443,20 @@ def odometry_corrected(model: Model, limits: Limits) -> Iterator[Hit]:
             number = int(np.count_nonzero(np.abs(steps) > _CORRECTS))
             net = abs(float(steps.sum()))
             every = float(np.abs(_yaw_steps(below, below.by_stamp)).sum())
-            is_far = net >= np.radians(limits["degrees"]) and net >= limits["share"] * every
+            total = float(np.abs(steps).sum())
+            is_sure = net >= np.radians(limits["far"])
+            share = limits["far_share" if is_sure else "share"]
+            is_far = net >= np.radians(limits["degrees"]) and net >= share * every
             # With steps in both directions, a pose that is uncertain comes and goes.
-            if number >= limits["samples"] and is_far and net > 0.8 * np.abs(steps).sum():
+            if number >= limits["samples"] and is_far and net > 0.8 * total:
                 facts = {"net": net, "all": every, "child": below.child, "odom": below.parent}
                 length = int(np.ptp(track.stamps[rows]))
                 yield hit_of(
-                    track, {**facts, "count": number, "length": length}, count=number, alone=True
+                    track,
+                    {**facts, "count": number, "length": length},
+                    count=number,
+                    alone=True,
+                    severity=Severity.WARNING if is_sure else None,
                 )
 
 

@@ -17,6 +17,9 @@ from tftool.doctor.findings import Fact, Hit
 MOST_NAMED = 5
 """Maximum number of items of a list that are printed."""
 
+_MANY_DEGREES = 999.5
+"""Angle, degrees, that does not fit into three digits."""
+
 
 def span(nanoseconds: float) -> str:
     """Format a duration with three digits: "20 ms", "1.02 s"."""
@@ -117,7 +120,10 @@ class _Words(string.Formatter):
             case "m":
                 return metres(value)
             case "deg":
-                return f"{value * 57.29577951308232:.3g}°" if value > 1e-4 else "0°"
+                degrees = math.degrees(value)
+                if degrees > _MANY_DEGREES:
+                    return f"{degrees:,.0f}°"
+                return f"{degrees:.3g}°" if value > 1e-4 else "0°"
             case "%":
                 return f"{value * 100:.3g} %"
             case "times":
