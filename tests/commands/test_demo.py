@@ -156,6 +156,7 @@ def test_any_argument_can_be_set(tftool):
         (["--set", "=3"], 2, "--set takes NAME=VALUE"),
         (["--set", "a=1", "--set", "a=2"], 2, "'a' is set twice"),
         (["--set", "leader=x"], 2, "has no argument 'leader'"),
+        (["time_travel", "--set", "delay=abc"], 2, "'abc' is not a duration such as 2 s"),
         (["nosuch"], 3, "nosuch"),
     ],
 )

@@ -234,6 +234,17 @@ def test_what_is_wrong_stands_beside_the_frame(tftool, tmp_path):
     assert "edge-stopped" not in tftool("tree", file, "--at", "3").out
 
 
+def test_a_wrong_limit_of_memory_is_no_fault_of_the_scenario(tftool, monkeypatch):
+    monkeypatch.setenv("TFTOOL_BUFFER_MB", "abc")
+
+    result = tftool("tree", "turtles")
+
+    assert result.status == 2
+    assert result.err == (
+        "tftool: TFTOOL_BUFFER_MB='abc' is not a number of megabytes: set it to 512, or unset it.\n"
+    )
+
+
 def test_two_static_parents_stand_beside_the_frame(tftool, tmp_path):
     played = tmp_path / "cam.yaml"
     played.write_text(

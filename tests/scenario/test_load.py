@@ -437,11 +437,14 @@ def test_arguments_are_named_by_a_word_and_single_values():
     ]
 
 
-def test_a_value_from_outside_is_checked_where_it_is_used():
+def test_a_value_from_outside_is_no_mistake_of_the_file():
     text = "arguments: {d: 5 s}\nduration: 1 s\nnodes: [follower: {delay: $d}]\n"
 
-    with pytest.raises(ScenarioError, match=r"s\.yaml:3:27: 'soon' is not a duration"):
+    told = r"scenario 's' does not accept 'd=soon': 'soon' is not a duration .* \(line 3\)"
+    with pytest.raises(UsageError, match=told):
         load.parse(text, "s.yaml", {"d": "soon"})
+    with pytest.raises(ScenarioError, match=r"s\.yaml:3:27: 'later' is not a duration"):
+        load.parse(text.replace("5 s", "soon"), "s.yaml", {"d": "later"})
 
 
 # Nodes.

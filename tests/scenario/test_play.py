@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import tftool
-from tftool.base.errors import NodeFailed, ScenarioError, TftoolError, UsageError
+from tftool.base.errors import NodeFailed, TftoolError, UsageError
 from tftool.base.stamps import seconds
 from tftool.messages.turtle_messages import Pose
 from tftool.scenario import builtin
@@ -150,7 +150,7 @@ def test_arguments_that_do_not_fit_are_refused():
 
     with pytest.raises(UsageError, match="has no argument 'source'; did you mean 'source_frame'"):
         build(scenario, SimClock(), {"source": "carrot1"})
-    with pytest.raises(ScenarioError, match="'turtle2' cannot follow itself"):
+    with pytest.raises(UsageError, match="'turtle2' cannot follow itself"):
         build(scenario, SimClock(), {"source_frame": "turtle2"})
 
 

@@ -33,6 +33,7 @@ from tftool.scenario.node_kinds import KINDS, link_of
 from tftool.scenario.scenario import Expectation, NodeEntry, Scenario, Step, When
 from tftool.scenario.script import ACTIONS, StopNode
 from tftool.world.clock import SimClock
+from tftool.world.memory_limit import MAX_BYTES
 from tftool.world.world import World
 
 NO_ARGUMENTS: Mapping[str, str] = MappingProxyType({})
@@ -64,7 +65,8 @@ def load(
 
     Raises:
         InputError: If the file cannot be read; a `ScenarioError` lists every mistake in the file.
-        UsageError: If an argument is given that the scenario does not declare.
+        UsageError: If an argument is given that the scenario does not declare, or with a value
+            that does not fit.
     """
     expects = expects or not builtin.is_shipped(Path(path))
     return parse(text_of(path), str(path), arguments, expects=expects)
@@ -89,7 +91,23 @@ def parse(
         return _ScenarioReader(arguments, expects).scenario(root, reading, name)
     except Unreadable as error:
         by_place = attrgetter("line", "column")
-        raise ScenarioError(name, sorted(reading.mistakes, key=by_place)) from error
+        mistakes = sorted(reading.mistakes, key=by_place)
+        if arguments and _is_readable(text, name, expects=expects):
+            given = ", ".join(f"{key}={value}" for key, value in arguments.items())
+            raise UsageError(
+                f"scenario {quoted(PurePath(name).stem)} does not accept {quoted(given)}: "
+                f"{mistakes[0].text} (line {mistakes[0].line})"
+            ) from error
+        raise ScenarioError(name, mistakes) from error
+
+
+def _is_readable(text: str, name: str, *, expects: bool) -> bool:
+    """Return whether a scenario can be read with the values that its arguments have in the file."""
+    try:
+        parse(text, name, expects=expects)
+    except ScenarioError:
+        return False
+    return True
 
 
 class _ScenarioReader:
@@ -343,7 +361,8 @@ class _ScenarioReader:
         name = parameters.pop("name")
         try:
             # Created once in a separate world, so that the node checks its parameters itself.
-            KINDS[kind].build(World(SimClock()), name or kind, parameters)
+            # The user's limit of memory is not checked here: it is no fault of the file.
+            KINDS[kind].build(World(SimClock(), max_bytes=MAX_BYTES), name or kind, parameters)
         except TftoolError as error:
             reading.note(key, str(error))
             return kind, name, UNREAD
