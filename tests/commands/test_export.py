@@ -537,6 +537,17 @@ def test_where_there_is_nothing_nothing_is_written(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
+def test_statics_below_a_moving_frame_are_named(tmp_path):
+    robot = Buffer()
+    robot.set_transform(TransformStamped(START, "base", "arm", Transform()))
+    robot.set_transform_static(TransformStamped(0, "arm", "tool", Transform()))
+    told = "No static transform leads from 'base' to a frame below it.*: they are below 'arm'"
+    with pytest.raises(library.UsageError, match=told):
+        library.export(robot, path=tmp_path / "a.urdf", root="base")
+
+    assert library.export(robot, path=tmp_path / "a.urdf", root="arm").count == 1
+
+
 def test_in_python_a_file_is_written_in_one_line(buffer, tmp_path):
     done = library.export(
         buffer, path=tmp_path / "a.csv", pairs=[("odom", "base"), ("odom", "camera")]

@@ -69,7 +69,11 @@ class ExportOptions(Command, looks_only=True, recordings=True, descriptions=True
         "Number of decimals; 17 writes each number with the fewest digits that restore it exactly.",
         default=9,
     )
-    root: str | None = option("Write only the frames below this frame.", metavar="FRAME")
+    root: str | None = option(
+        "Write only the frames below this frame; without --with-moving, only those that static "
+        "transforms connect with this frame.",
+        metavar="FRAME",
+    )
     with_moving: bool = flag(
         "Also write frames that move into a URDF, as floating joints, which robot_state_publisher "
         "skips. Their poses are those at --at, or the latest poses."

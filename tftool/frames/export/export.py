@@ -242,11 +242,15 @@ def write_links(
         buffer, with_moving=style.with_moving, time=style.time, root=style.root
     )
     if not links:
-        below = "" if style.root is None else f" below '{style.root}'"
         moving = " --with-moving adds moving frames." if form is Format.urdf else ""
-        raise UsageError(
-            f"No frame{below} is static, and {form} contains static frames only.{moving}"
-        )
+        tops = static_files.roots(static_files.fixed_links(buffer))
+        if tops:
+            shown = ", ".join(f"'{one}'" for one in tops[:6]) + (" …" if len(tops) > 6 else "")
+            raise UsageError(
+                f"No static transform leads from '{style.root}' to a frame below it, and {form} "
+                f"contains static frames only: they are below {shown}.{moving}"
+            )
+        raise UsageError(f"No frame is static, and {form} contains static frames only.{moving}")
     name = path.name.partition(".")[0] or "robot"
     text = LINK_WRITERS[form](links, name)
     with whole_file(path, force=force) as file:

@@ -47,7 +47,8 @@ def fixed_links(
         buffer: Source of the frames.
         with_moving: Whether to add moving frames with their poses at `time`.
         time: Time of the poses of moving frames, nanoseconds; 0 for the latest pose of each.
-        root: Frame below which frames are returned; None for all frames.
+        root: Frame below which frames are returned, without those below a moving frame that is not
+            added; None for all frames.
 
     Raises:
         TransformException: If a moving frame has no pose at that time, or `root` does not exist.
