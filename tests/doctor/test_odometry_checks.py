@@ -235,8 +235,8 @@ def test_odometry_that_turns_too_far_is_a_warning_from_half_a_turn_on(step, told
     notes = [one for one in made.judged().findings if one.id == "odometry-corrected"]
     assert [one.severity for one in notes] == [Severity.WARNING] * told
     if told:
-        # From 0 s to 7.95 s at 3 rad/s: 23.85 rad.
-        assert "turns by 1,366° in odom" in notes[0].message
+        # From 0 s to 7.95 s at 3 rad/s: 23.85 rad, 1,366.5°.
+        assert "turns by 1,367° in odom" in notes[0].message
 
 
 def test_commands_after_the_last_transform_are_read_unless_all_are_zero(tmp_path):
