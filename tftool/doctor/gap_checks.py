@@ -330,6 +330,10 @@ def gap(model: Model, limits: Limits) -> Iterator[Hit]:
         why += f"; {count(needed, 'sensor message')} in it" if needed else ""
         sent, cure = _cause(model, track, (begin, end), bool(silent))
         why += sent
+        if track.moves:
+            pair = track.by_stamp[np.searchsorted(track.sorted_stamps, (begin, end))]
+            turned = np.degrees(track.turned(pair[:1], pair[1:]))[0]
+            why += f"; across it: {turned:.3g}° and {metres(_robot_moves(model, track, pair))}"
         every = again or found
         if len(every) > 1:
             least = _least_gap(track, _short(limits) if again else limits)
