@@ -541,7 +541,7 @@ def test_statics_below_a_moving_frame_are_named(tmp_path):
     robot = Buffer()
     robot.set_transform(TransformStamped(START, "base", "arm", Transform()))
     robot.set_transform_static(TransformStamped(0, "arm", "tool", Transform()))
-    told = "No static transform leads from 'base' to a frame below it.*: they are below 'arm'"
+    told = "Static transforms connect no frame below 'base' with it.*: they are below 'arm'"
     with pytest.raises(library.UsageError, match=told):
         library.export(robot, path=tmp_path / "a.urdf", root="base")
 

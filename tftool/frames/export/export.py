@@ -247,7 +247,7 @@ def write_links(
         if tops:
             shown = ", ".join(f"'{one}'" for one in tops[:6]) + (" …" if len(tops) > 6 else "")
             raise UsageError(
-                f"No static transform leads from '{style.root}' to a frame below it, and {form} "
+                f"Static transforms connect no frame below '{style.root}' with it, and {form} "
                 f"contains static frames only: they are below {shown}.{moving}"
             )
         raise UsageError(f"No frame is static, and {form} contains static frames only.{moving}")
