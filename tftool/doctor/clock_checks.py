@@ -185,8 +185,11 @@ def _example(group: "list[Track | Heard]", simulated: bool) -> int:
     "shifted-clock",
     Severity.NOTE,
     rule="more than half of all streams have stamps that differ from their reception by the same "
-    "constant, more than 2 s and equal to within 1 s. A warning if the stamps are after the "
-    "reception, because a recording that is played again cannot have such stamps",
+    "constant, more than 2 s and equal to within 1 s. If all streams are ahead of their reception, "
+    "only the half of the messages that waited least has to be equal so. Not reported if "
+    "transforms and messages with a position agree with the recorder's clock to within 1 s, as "
+    "those of another robot. A warning if the stamps are after the reception, because a recording "
+    "that is played again cannot have such stamps",
     headline="{most} stamps are {by:span} {side} their reception, constant to {spread:span}",
     detail="{streams} of {of} streams; latencies and the cache are judged against the clock of the "
     "stamps",
