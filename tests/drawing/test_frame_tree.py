@@ -110,6 +110,20 @@ def test_nothing_known_says_so():
     assert shown(snapshot()) == ["Recorded at time: 1012.500000", "No tf data received", ""]
 
 
+def test_a_loop_is_one_tree_with_all_frames_below_it():
+    # The branches come before the frames of the loop.
+    frames = [moving("left", "a"), moving("right", "b"), moving("a", "b"), moving("b", "a")]
+
+    lines = shown(snapshot(*frames))
+
+    assert not any("separate trees" in line for line in lines)
+    assert [line for line in lines if "a loop" in line] == [lines[3]]
+    names = sorted(line.split("dynamic")[0].strip("│├└─ ") for line in lines[4:-1])
+    assert names == ["b", "left", "right"]
+    two = shown(snapshot(*frames, root("map")))
+    assert two[1] == "2 separate trees: map, a"
+
+
 def test_several_trees_are_told_and_a_moment_of_the_past_too():
     lines = shown(snapshot(root("map"), root("world"), at=seconds(1005)))
 

@@ -26,6 +26,16 @@ def judge(*expectations):
     return run_scenario(parse(text, "s.yaml")).outcomes
 
 
+def test_a_loop_is_one_tree():
+    loop = "duration: 2 s\nnodes: []\nscript:\n" + "".join(
+        f"  - {{at: 1 s, broadcast: {{parent: {parent}, child: {child}}}}}\n"
+        for parent, child in (("a", "below"), ("a", "b"), ("b", "a"))
+    )
+    (outcome,) = run_scenario(parse(f"{loop}expect: [{{at: 2 s, trees: 1}}]\n", "s.yaml")).outcomes
+
+    assert outcome.ok
+
+
 @pytest.mark.parametrize(
     "expectation",
     [

@@ -52,13 +52,19 @@ def grow(snapshot: Snapshot, *, most: int | None = None) -> Forest:
     reached = set(order)
     for name in info:
         if name not in reached:
-            loops.append(name)
+            # This frame is in a loop or below one: go up until a frame of the loop repeats.
+            top, passed = name, set[str]()
+            while top not in passed:
+                passed.add(top)
+                parent = info[top].parent
+                assert parent is not None
+                top = parent
+            loops.append(top)
             # The edge that closes the loop is cut here, so that the rest is a tree.
-            parent = info[name].parent
-            assert parent is not None
-            children[parent].remove(name)
-            found = _walk([name], children)
-            reached.update(found)
+            above = info[top].parent
+            assert above is not None
+            children[above].remove(top)
+            reached.update(_walk([top], children))
     if loops:
         order = _walk([*roots, *loops], children)
 
