@@ -229,14 +229,14 @@ NODE = "import rclpy\nrclpy.init()\nnode = rclpy.create_node('mine')\n"
         (
             "from nav2_msgs.action import NavigateToPose\n",
             1,
-            "did you mean 'nav_msgs'? If not, the definitions of nav2_msgs are not among tftool's",
+            "did you mean 'nav_msgs'? If not, tftool has no definitions of nav2_msgs",
         ),
         (
             "from interfaces.msg import Telemetry\n",
             1,
-            "did you mean 'rcl_interfaces'? If not, the definitions of interfaces are",
+            "did you mean 'rcl_interfaces'? If not, tftool has no definitions of interfaces",
         ),
-        ("from my_types.srv import Add\n", 1, "the definitions of my_types are not among"),
+        ("from my_types.srv import Add\n", 1, "tftool has no definitions of my_types"),
         (
             "import os\nos.environ['AMENT_PREFIX_PATH']\n",
             1,

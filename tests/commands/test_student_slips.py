@@ -57,7 +57,7 @@ def program(tmp_path, monkeypatch):
 def test_a_timer_given_a_call_in_place_of_a_callback_is_named_with_its_line(tftool, program):
     result = tftool("run", "--simulated", "--for", "1", program(TIMER))
 
-    assert "the callback of this timer is None, so it calls nothing" in result.err
+    assert "the callback of this timer is None, so the timer calls nothing" in result.err
     assert "node.py:8" in result.err
     assert "self.create_timer(0.1, self.tick())" in result.err
 

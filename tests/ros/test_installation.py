@@ -59,7 +59,7 @@ def test_every_part_that_ros_would_not_find_is_listed(tftool, package):
     assert result.status == 1
     found = faults(result)
     assert found[0].startswith(
-        "the package is in no index of packages: add an empty file 'resource/chase'"
+        "ament's index does not contain the package: add an empty file 'resource/chase'"
     )
     assert "'install_scripts=$base/lib/chase'" in found[1]
     assert found[2].endswith(NO_ENTRY)

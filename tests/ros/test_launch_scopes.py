@@ -535,7 +535,7 @@ def test_a_launch_says_that_it_starts_two_nodes_of_one_name(tmp_path):
     done = described(tmp_path, node, node)
 
     assert done.said("launch") == [
-        "/s/twin is started 2 times by this launch; give each a name or a namespace of its own"
+        "/s/twin is started 2 times by this launch; give each node a name or a namespace of its own"
     ]
 
 

@@ -69,7 +69,8 @@ def test_a_node_knows_its_names(ros_runtime):
         (
             lambda rclpy, node: node.resolve_service_name("a~"),
             "InvalidServiceNameException",
-            "Invalid service name: '~' must come first, with a '/' behind it:\n  'a~'\n    ^",
+            "Invalid service name: '~' must be the first character, followed by '/':\n"
+            "  'a~'\n    ^",
         ),
     ],
 )

@@ -420,7 +420,7 @@ def test_what_is_not_there_is_named(ros_runtime, tmp_path):
         ),
         (
             ["service", "call", "/spawn_entity", "gazebo_msgs/SpawnEntity"],
-            "kind srv; the definitions of gazebo_msgs are not among tftool's: put the package",
+            "kind srv; tftool has no definitions of gazebo_msgs: put the package",
         ),
         (
             ["service", "call", "/spawn", "turtlesim/srv/Spawn", "{y: 1, z: 2}"],

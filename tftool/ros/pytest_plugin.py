@@ -51,7 +51,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
         config.pluginmanager.register(launch_plugin, "tftool-launch-tests")
         for mark in (*launch_plugin.MARKS, "launch"):
-            config.addinivalue_line("markers", f"{mark}: a test beside a launch")
+            config.addinivalue_line("markers", f"{mark}: a test that runs during or after a launch")
         _provide(config.rootpath)
 
 

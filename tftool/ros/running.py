@@ -1,4 +1,4 @@
-"""Functions of the commands `run` and `launch` that run users' programs in a world."""
+"""Functions with which the commands `run` and `launch` run users' programs in a world."""
 
 import asyncio
 from collections.abc import Callable, Iterator, Sequence

@@ -96,7 +96,7 @@ def missing_package(name: str, use: str = "") -> str:
     if is_imported or name.endswith(("_msgs", "_srvs", "_interfaces", "_actions")):
         # Another package of ROS 2, such as nav2_msgs, may have a similar name.
         return (
-            f"{hint and f'{hint} If not, '}the definitions of {name} are not among tftool's: put "
+            f"{hint and f'{hint} If not, '}tftool has no definitions of {name}: put "
             "the package with its .msg, .srv and .action files into the workspace's src"
         )
     if near:

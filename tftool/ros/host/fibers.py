@@ -81,7 +81,10 @@ class CodeLine:
 
 
 def user_line(frame: FrameType | None) -> CodeLine | None:
-    """Return the innermost line of a call stack that is in a user's file; None without any."""
+    """Return the innermost line of a call stack that is in a user's file.
+
+    Return None if no line of the stack is in a user's file.
+    """
     while frame is not None:
         file = frame.f_code.co_filename
         if is_users_file(file):
@@ -91,7 +94,10 @@ def user_line(frame: FrameType | None) -> CodeLine | None:
 
 
 def user_line_of_error(trace: TracebackType | None) -> CodeLine | None:
-    """Return the innermost line of a traceback that is in a user's file; None without any."""
+    """Return the innermost line of a traceback that is in a user's file.
+
+    Return None if no line of the traceback is in a user's file.
+    """
     found = None
     while trace is not None:
         code = trace.tb_frame.f_code
@@ -112,7 +118,7 @@ class Fiber:
         name: Name of the program whose code the fiber runs.
         interrupted: Whether the fiber was asked to end. Each wait of the code then raises
             KeyboardInterrupt.
-        is_told: Whether a wait of the interrupted code has raised this exception.
+        is_told: Whether a wait of the interrupted code has already raised KeyboardInterrupt.
         error: Exception that ended the code; None if there was none. A StuckError means that tftool
             stopped code that was still running at the end of the run.
         ended: Whether the code has ended.
@@ -357,8 +363,8 @@ class Fiber:
         self.ended = True
         raise StuckError(
             f"'{self.name}' has computed for {self._give_up:g} s without waiting, so simulated "
-            "time could not advance: let the code wait with a timer or time.sleep, or, if it waits "
-            "for a file, a socket or a process, run it without --simulated. "
+            "time could not advance. Let the code wait with a timer or time.sleep; if the code "
+            "waits for a file, a socket or a process, run it without --simulated. "
             + (f"The code was at: {place}" if place else "None of your lines was running.")
         )
 

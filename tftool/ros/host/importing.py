@@ -53,7 +53,7 @@ _LOADING = threading.RLock()
 
 
 class _StandInModule(ModuleType):
-    """Module with the name of a ROS 2 module, which loads each object from tftool at first use."""
+    """Module that has a ROS 2 module's name and loads each object from tftool at first use."""
 
     def __dir__(self) -> list[str]:
         return sorted({*vars(self), *_entries(self.__name__), *self._modules()} - {"*"})
@@ -450,7 +450,7 @@ def search_first(root: Path) -> None:
 
 
 def unload_hidden(folder: Path) -> None:
-    """Remove users' modules from `sys.modules` that have the name of a file in `folder`.
+    """Remove from `sys.modules` each user's module that has the name of a file in `folder`.
 
     Two programs may have modules of the same name. Without the removal, an import in the second
     program would return the first program's module.

@@ -95,7 +95,7 @@ def _marks(package: Package) -> Iterator[InstalledPart]:
         package.data_files is not None and f"resource/{package.name}" not in package.data_files
     )
     fault = (
-        "the package is in no index of packages: add an empty file "
+        "ament's index does not contain the package: add an empty file "
         f"'resource/{package.name}', and let setup.py install it into "
         "share/ament_index/resource_index/packages"
     )

@@ -137,7 +137,7 @@ def topic_name_fault(name: str) -> Fault | None:
     if strange is not None:
         return Fault(_STRANGE_CHARACTER, strange.start())
     if "~" in name[1:] or (name.startswith("~") and not name.startswith("~/") and name != "~"):
-        return Fault("'~' must come first, with a '/' behind it", name.rindex("~"))
+        return Fault("'~' must be the first character, followed by '/'", name.rindex("~"))
     for found in _SUBSTITUTION.finditer(name):
         if found[1] not in ("node", "ns", "namespace"):
             return Fault(

@@ -190,7 +190,7 @@ def _modules_of_cmake(text: str) -> list[str]:
 def _moved(folder: Path, share_path: str, data_files: Any) -> Iterator[tuple[str, Path]]:
     """Yield (installed path, source file) for each file that setup.py installs under a new path.
 
-    The installed path is relative to the share directory; in `folder` the file has another path.
+    The installed path is relative to the share directory, the source file is below `folder`.
     """
     for entry in data_files if isinstance(data_files, list) else ():
         if not (isinstance(entry, list) and len(entry) == 2 and isinstance(entry[1], list)):
@@ -298,7 +298,10 @@ class _Literals:
         return None
 
     def _files(self, pattern: Any, *, deep: bool) -> list[str]:
-        """Return the files in the package's folder matching a glob pattern; `deep` permits `**`."""
+        """Return the files in the package's folder that match a glob pattern.
+
+        The pattern may contain `**` only if `deep` is true.
+        """
         if not isinstance(pattern, str) or Path(pattern).is_absolute() or ".." in pattern:
             return []
         return sorted(glob.glob(pattern, root_dir=self._folder, recursive=deep))

@@ -38,7 +38,7 @@ REQUESTS = 10_000
 """Requests of any kind in one simulated instant before time advances."""
 
 TICK = seconds(0.001)
-"""Nanoseconds by which time advances at these limits, so that a loop that polls can end."""
+"""Nanoseconds by which time advances at these limits (a tick), so that a polling loop can end."""
 
 TICKS = 16
 """Number of successive ticks, without a wait between them, after which a tick doubles."""
@@ -326,9 +326,9 @@ class Program(Node):
         self.ask(partial(self.clock.sleep, max(0, duration), self.turn, self.rank))
 
     def wait_after_end(self, is_over: Callable[[], bool], duration: Duration | None) -> None:
-        """Block the calling thread, which knows that the program must end, in real time.
+        """Block the calling thread in real time, after the program was asked to end.
 
-        On simulated time, which has ended, return at once.
+        On simulated time, return at once, because simulated time has ended.
 
         Args:
             is_over: Function called every few milliseconds; True ends the wait.
@@ -410,9 +410,9 @@ class Program(Node):
         self.say(
             "WARN",
             self.name,
-            f"'{self.name}' has polled for {fibers.GIVE_UP:g} s, which makes simulated time slow, "
-            f"with steps of {TICK / NANOSECONDS:g} to {LONGEST_TICK / NANOSECONDS:g} s: wait with "
-            f"time.sleep or a timer instead, at {where}",
+            f"'{self.name}' has polled for {fibers.GIVE_UP:g} s, so simulated time is slow: it "
+            f"advances in steps of {TICK / NANOSECONDS:g} to {LONGEST_TICK / NANOSECONDS:g} s. "
+            f"Instead of polling, wait with time.sleep or a timer, at {where}",
         )
 
 
@@ -445,7 +445,7 @@ UNTIL_CLOCK = seconds(2.0)
 
 
 def warn_without_clock(world: World, say: Callable[[str], object]) -> None:
-    """Call `say`, once in each world, if no node publishes `/clock` in the next seconds.
+    """Call `say`, once in each world, if no node publishes `/clock` within `UNTIL_CLOCK`.
 
     Call this in the event loop's thread. In a world that has its own time, do nothing.
     """
@@ -517,7 +517,8 @@ if sys.platform != "win32":
         """Detach a child process, such as one of multiprocessing, from its parent's world.
 
         The world's event loop runs only in the parent, so each request of the child would wait for
-        ever. The parent's signal handlers would write the child's signals to the parent's stopper.
+        ever. The child inherits the parent's signal handlers, which would pass the child's signals
+        to the parent.
         """
         global _is_forked
         if _living:

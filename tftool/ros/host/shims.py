@@ -149,7 +149,7 @@ SLICE: Duration = seconds(0.01)
 
 
 class _WorldSelector(selectors.DefaultSelector):
-    """Selector for asyncio's event loops whose timeouts count seconds of tftool's clock."""
+    """Selector for asyncio's event loops; its timeouts count seconds of tftool's clock."""
 
     def select(self, timeout: float | None = None) -> Any:
         ready = super().select(0)

@@ -77,7 +77,7 @@ class UserTimer(UserThread, threading.Timer):
 
 
 class UserFuture(concurrent.futures.Future[Any]):
-    """Future of a `UserThreadPool`, whose timeouts count seconds of tftool's clock."""
+    """Future of a `UserThreadPool`; the future's timeouts count seconds of tftool's clock."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -190,15 +190,19 @@ def process_class() -> Any:
     import multiprocessing
 
     class Process(multiprocessing.Process):
-        """Replacement of `multiprocessing.Process`, which runs nodes as a program of the world.
+        """Replacement of `multiprocessing.Process`.
 
-        A function that does not mention rclpy runs in a child process as usual.
+        A function that mentions rclpy runs as a program of the world. Any other function runs in a
+        child process as usual.
         """
 
         _program: Any = None
 
         def start(self) -> None:
-            """Start the function: as a program of the caller's world if it mentions rclpy."""
+            """Start the function as a program of the caller's world, or in a child process.
+
+            The function becomes a program if it mentions rclpy.
+            """
             owner = running_program()
             kind: Any = type(self)
             given: Any = self

@@ -221,8 +221,9 @@ class Workspace:
     def share(self, name: str) -> Path:
         """Return a folder with the files of a package's share directory; nothing is installed.
 
-        The folder is part of tftool for a package of ROS, else the package's source folder. For a
-        package that installs files under other paths, it is a temporary folder with links.
+        For a package of ROS, the folder is part of tftool. For a user's package, the folder is the
+        package's source folder. If the package installs files under other paths, a temporary folder
+        with links is returned instead.
 
         Raises:
             UsageError: If there is no such package.
@@ -258,7 +259,7 @@ def missing_package(name: str, workspace: Workspace, provided: tuple[str, ...] =
     The text suggests a package with a similar name, suggests adding a package.xml, or lists all
     packages.
 
-    `provided` are the packages that tftool provides.
+    `provided` contains the names of the packages that tftool provides.
     """
     known = [*workspace.packages, *provided]
     near = near_names(name, known, alike=0.8)

@@ -165,7 +165,7 @@ class ComposableNodeContainer(Node):
         )
 
     def _missing(self, context: LaunchContext) -> str:
-        """Return the reason why tftool cannot start the container; "" if it can."""
+        """Return the reason why tftool cannot start the container; "" if tftool can start it."""
         package = None if self.package is None else perform(context, self.package)
         try:
             if package is None:

@@ -69,7 +69,8 @@ class Element:
         """Check that all attributes and child elements were read; others are probably misspelt.
 
         Raises:
-            InputError: If one was not read; the text suggests the most similar name that was read.
+            InputError: If an attribute or child element was not read; the text suggests the most
+                similar name that was read.
         """
         for name in self.values:
             if name not in self.read_names:

@@ -458,7 +458,11 @@ class Launch(Node):
     def _start(
         self, action: Any, name: str, start: Callable[[str], None], respawn: float | None
     ) -> str:
-        """Start a program of an action; return its name in log lines, which `start` takes."""
+        """Start a program of `action` by `start(label)`, and return the label.
+
+        The label is the program's name in log lines: `name` and a number. While the launch shuts
+        down, `start` is not called.
+        """
         self._count += 1
         # A launch inside this one may have a program of the same name and number.
         label = self.world.free_name(f"{name}-{self._count}")

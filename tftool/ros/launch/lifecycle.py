@@ -122,7 +122,7 @@ class LifecycleNode(Node):
 
 
 def change_state(node: str, transition: int) -> ExecuteProcess:
-    """Return an action that requests a transition from a lifecycle node, by `ros2 service call`."""
+    """Return an action that requests a transition of a lifecycle node by `ros2 service call`."""
     request = f"{{transition: {{id: {transition}}}}}"
     words = ["service", "call", f"{node}/change_state", "lifecycle_msgs/srv/ChangeState", request]
     return ExecuteProcess(cmd=["ros2", *words])

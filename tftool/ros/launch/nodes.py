@@ -138,8 +138,8 @@ class Node(Startable):
         count = get_node_name_count(context, self.node_name)
         if count > 1:
             context.launch.warn(
-                f"{self.node_name} is started {count} times by this launch; give each a name "
-                "or a namespace of its own"
+                f"{self.node_name} is started {count} times by this launch; give each node "
+                "a name or a namespace of its own"
             )
 
 
@@ -165,7 +165,7 @@ def python_file(executable: str) -> str:
 
 
 def _argument_list(arguments: Any) -> list[Any]:
-    """Return arguments as a list; split arguments in one text as a shell does."""
+    """Return arguments as a list; a single text is split into words as a shell does."""
     if arguments is None:
         return []
     if isinstance(arguments, str):

@@ -87,7 +87,7 @@ class ParameterDescription:
 
 
 class ParameterFile:
-    """Parameter file of a launch file.
+    """Parameter file that a launch file passes to nodes.
 
     Attributes:
         param_file: Path of the file; substitutions for the path until `evaluate` is called.

@@ -1,6 +1,7 @@
 """Parser of texts with substitutions, such as `$(var name)`, in XML and YAML launch files.
 
-Programs use it as launch.frontend, and register their own substitutions.
+Users' programs import these functions from `launch.frontend`, and register substitutions of their
+own with `expose_substitution`.
 """
 
 import inspect

@@ -91,7 +91,10 @@ def service_fixture(scope: Any) -> Any:
 
 
 def _part_of_service(name: str, part: str) -> Callable[[Any], Any]:
-    """Return a function that takes a pytest scope and returns a fixture."""
+    """Return a function that creates the fixture `name` for a given pytest scope.
+
+    The value of the fixture is the attribute `part` of the test's launch service.
+    """
 
     def make(scope: Any) -> Any:
         @pytest.fixture(scope=scope, name=name)

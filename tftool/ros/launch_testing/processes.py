@@ -55,7 +55,7 @@ def _wait_functions(
 def _wait_functions_for_action(condition: Callable[[Any], bool]) -> tuple[Any, Any]:
     """Return a coroutine function that waits for a condition on an action, and a synchronous one.
 
-    Unlike the results of `_wait_functions`, both functions take no function that checks output.
+    Unlike the functions that `_wait_functions` returns, these functions do not check output.
     """
     wait_checked, wait_checked_sync = _wait_functions(
         lambda action, _: condition(action), lambda *_: None

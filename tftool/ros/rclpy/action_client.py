@@ -151,8 +151,8 @@ class ActionClient(Requester):
     def watch(self, handle: ClientGoalHandle, goal: WorldGoal | None) -> Future:
         """Return a future of a goal's status and result.
 
-        The handle's status is set when the goal ends. For a rejected goal, None, the future never
-        completes.
+        The handle's status is set when the goal ends. If `goal` is None, because the server has
+        rejected the goal, the future never completes.
         """
 
         async def wait() -> _Result | None:

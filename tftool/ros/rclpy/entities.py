@@ -349,9 +349,9 @@ class Timer(NodeEntity):
     def clock_jumped(self, before: Stamp, is_other_source: bool) -> None:
         """Adapt the time of the next call after a `TimeSource` has set the clock.
 
-        With another source of time, the rest of the present period remains. Time 0 means that the
-        source has not set a time yet. If time has fallen back, a new period begins. Call this in
-        the event loop's thread.
+        After a change of the clock's source, the next call is as far away as before, unless a time
+        is 0: a source that has not set a time yet shows time 0. If the same source has set an
+        earlier time, a new period begins. Call this in the event loop's thread.
 
         Args:
             before: Time of the clock before it was set, nanoseconds.

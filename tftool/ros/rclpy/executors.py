@@ -38,7 +38,7 @@ class ShutdownException(Exception):
 
 
 class TimeoutException(Exception):
-    """Error for a wait of an executor that exceeds the timeout."""
+    """Error for an executor's wait that takes longer than the timeout."""
 
 
 class ConditionReachedException(Exception):
@@ -311,7 +311,10 @@ class Executor:
         return None
 
     def _collect(self) -> None:
-        """Put the ready entities of all nodes into the batch; each node's timers come first."""
+        """Append the ready entities of all nodes to `_batch`, the entities to run next.
+
+        Each node's timers come before the node's other entities.
+        """
         self._due = None
         for state in list(self._states):
             for entity in state.entities:

@@ -67,7 +67,7 @@ def _stamp(msg: Any, allow_headerless: bool, logger_name: str) -> Time | None:
         return ROSClock().now()
     get_logger(logger_name).warning(
         f"{type(msg).__name__} has no header with a stamp, so the message is ignored: "
-        "allow_headerless=True uses the time of its arrival instead"
+        "set allow_headerless=True to use the time of arrival as its stamp"
     )
     return None
 

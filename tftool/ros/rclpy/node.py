@@ -275,8 +275,8 @@ class Node(NodeGraph, NodeParameters):
         # mistake.
         if place is not None:
             self.get_logger().warning(
-                "the callback of this timer is None, so it calls nothing: write self.callback, "
-                f"not self.callback(), at {place}"
+                "the callback of this timer is None, so the timer calls nothing: write "
+                f"self.callback, not self.callback(), at {place}"
             )
 
     def create_client(
@@ -341,8 +341,8 @@ class Node(NodeGraph, NodeParameters):
     ) -> None:
         """Create services that every ROS 2 node has, such as the services for its parameters.
 
-        They are created when a service of the world is first looked up. If another node of the same
-        name already offers a service, this service is not created.
+        The services are created when a program first looks up a service in the world. A service is
+        not created if another node of the same name already offers this service.
 
         `services` returns tuples (name below the node's name, type, handler).
         """

@@ -293,7 +293,7 @@ def _endpoint_names(
 ) -> Iterator[tuple[str, str]]:
     """Yield (topic or service, type) for each publisher, subscription or client of a node.
 
-    If `node` is None, yield those of all nodes.
+    If `node` is None, yield the pairs of all nodes.
     """
     for name in endpoints.topics():
         for end in endpoints.of(name, role):

@@ -423,7 +423,7 @@ class NodeParameters:
         return ""
 
     def __refusal(self, changes: list[Parameter]) -> str | None:
-        """Return the reason for which a callback rejects changes; None if all accept them."""
+        """Return the reason why a callback rejects changes; None if no callback rejects them."""
         for callback in reversed(self._on_set_parameters_callbacks):
             result = callback(changes)
             if not result.successful:

@@ -213,7 +213,10 @@ class Clock:
         return Time(nanoseconds=self._program.now(), clock_type=self._clock_type)
 
     def reading(self) -> Stamp:
-        """Return the present time in nanoseconds, for timers; such calls are no polling."""
+        """Return the present time in nanoseconds, for timers.
+
+        Unlike calls of `now`, these calls are not counted as polling by the program.
+        """
         return self._program.clock.now()
 
     def sleep_until(self, until: Time, context: Any = None) -> bool:
@@ -227,7 +230,10 @@ class Clock:
         return self._sleep(rel_time.nanoseconds, self._chosen(context))
 
     def _chosen(self, context: Any) -> Any:
-        """Return the given context, else the program's default context, None if not used yet."""
+        """Return `context`; if it is None, return the program's default context.
+
+        Return None if the program has not created its default context yet.
+        """
         return context or self._program.context
 
     def _sleep(self, duration: int, context: Any) -> bool:
@@ -298,7 +304,10 @@ class ROSClock(Clock):
         return self._override if self.is_overridden else super().now()
 
     def reading(self) -> Stamp:
-        """Return the present time in nanoseconds, for timers; such calls are no polling."""
+        """Return the present time in nanoseconds, for timers.
+
+        Unlike calls of `now`, these calls are not counted as polling by the program.
+        """
         return self._override.nanoseconds if self.is_overridden else super().reading()
 
     def _set_ros_time_is_active(self, enabled: bool) -> None:

@@ -142,7 +142,10 @@ class Publisher(TopicEnd):
 
     @property
     def is_heard(self) -> bool:
-        """Whether the topic has a subscription; unlike a count, this is no query of the program."""
+        """Whether the topic has a subscription.
+
+        Unlike `get_subscription_count`, this property is not counted as polling by the program.
+        """
         return bool(self._topic.subscribers)
 
     def get_subscription_count(self) -> int:

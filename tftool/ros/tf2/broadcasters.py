@@ -100,10 +100,12 @@ class TransformListener:
 
 
 def _time_of_stamps(state: NodeState) -> Stamp:
-    """Return the present time of a node's clock, in nanoseconds, for transforms that arrive.
+    """Return the present time, in nanoseconds, for transforms that arrive at a node.
 
-    If the clock follows `/clock`, this is the last time that arrived, even if the executor of the
-    node has not set the clock to it yet: after a jump back, transforms may arrive before that.
+    Without `/clock`, this is the time of the node's clock. With `/clock`, it is the time in the
+    last `/clock` message, even if the node's clock does not show this time yet. The clock is set
+    only when an executor spins the node, but transforms may arrive earlier, for example after a
+    jump back.
     """
     clock = state.ros_node.get_clock()
     if not clock.is_overridden:
@@ -214,14 +216,14 @@ class TransformBroadcaster:
         if above(parent) == child != parent:
             fault = (
                 f"frame_id '{parent}' and child_frame_id '{child}' are exchanged: '{child}' is "
-                f"the parent of '{parent}' already. frame_id is the parent"
+                f"already the parent of '{parent}'. frame_id must be the parent"
             )
         elif before not in (None, parent):
             # A frame may move to another parent once and remain there.
             self._turns[child] = self._turns.get(child, 0) + 1
             fault = (
-                f"'{child}' has two alternating parents, '{before}' and '{parent}': a frame has "
-                "one parent"
+                f"'{child}' has two alternating parents, '{before}' and '{parent}': a frame "
+                "can have only one parent"
             )
             if self._turns[child] < MOVES:
                 return

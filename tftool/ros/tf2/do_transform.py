@@ -114,7 +114,7 @@ def do_transform_pose_with_covariance_stamped(pose: Any, transform: Any) -> Any:
 
 
 def transform_covariance(cov_in: Any, transform: Any) -> Any:
-    """Rotate a 6×6 covariance C: return D·C·Dᵀ, where D has the rotation twice on its diagonal."""
+    """Rotate a 6×6 covariance C: return D·C·Dᵀ, where D is block-diagonal with two rotations."""
     import numpy as np
 
     return np.array(carry.covariance(_transform_of(transform), cov_in))
@@ -132,7 +132,7 @@ def do_transform_polygon_stamped(polygon: Any, transform: Any) -> Any:
 
 @_registered("geometry_msgs/Wrench")
 def do_transform_wrench(wrench: Any, transform: Any) -> Any:
-    """Transform a Wrench message; the force acts on a lever arm and so adds to the torque."""
+    """Transform a Wrench message; the torque includes the force times its lever arm."""
     result = duplicate(wrench)
     force, torque = carry.wrench(_transform_of(transform), _xyz(wrench.force), _xyz(wrench.torque))
     _put(result.force, force)

@@ -113,7 +113,10 @@ class LookupHints:
                 pass
 
     def _check_source_of_time(self) -> None:
-        """Log a warning if stamps are likely the times of `/clock`, but the nodes ignore it."""
+        """Log a warning if a node publishes `/clock` but the program's nodes do not use that time.
+
+        In this case, the stamps of the transforms are probably times of `/clock`.
+        """
         world = self._program.world
         if (
             TIME_SOURCE not in self._said
@@ -123,9 +126,9 @@ class LookupHints:
         ):
             self._say(
                 TIME_SOURCE,
-                "the transforms may have the time of /clock, but the nodes of this program have "
-                "the time of the machine: set use_sim_time, as with --ros-args -p "
-                "use_sim_time:=true",
+                "the stamps of the transforms may be times of /clock, but the nodes of this "
+                "program use the machine's time: set use_sim_time, as with --ros-args "
+                "-p use_sim_time:=true",
             )
 
     def _clocks_by_messages(self) -> Iterator[Any]:

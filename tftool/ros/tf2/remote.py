@@ -1,4 +1,4 @@
-"""Client and server of the action of tf2_ros for lookups in the buffer of another node."""
+"""Client and server of tf2_ros's action for transform lookups in another node's buffer."""
 
 from typing import Any
 
