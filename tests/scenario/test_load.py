@@ -607,11 +607,11 @@ LOOKUP = "lookup: {target: a, source: b}"
         ),
         (
             "{at: 1 s, lookup: {target: a, source: b, time: lately}}",
-            "'lately' is not a moment; did you mean 'latest'?",
+            "'lately' is not a time; did you mean 'latest'?",
         ),
         (
             "{at: 1 s, lookup: {target: a, source: b, time: once}}",
-            "'once' is not a moment; it may be latest, now, now - 5 s, or 12.5 s",
+            "'once' is not a time; it may be latest, now, now - 5 s, or 12.5 s",
         ),
         (
             "{at: 1 s, lookup: {target: a, source: b, time: now - x}}",

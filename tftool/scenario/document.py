@@ -25,7 +25,7 @@ DEEPEST = 20
 """Largest depth of nesting in a scenario."""
 
 MOST_VALUES = 20_000
-"""Most values in a scenario, with every alias written out."""
+"""Largest number of values in a scenario, with every alias written out."""
 
 
 @dataclass(frozen=True, slots=True)

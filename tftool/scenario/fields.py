@@ -252,7 +252,12 @@ def declare(kinds: dict[str, type[Any]], key: str, **facts: object) -> Callable[
 
 
 def parts_of(kind: type[Declared]) -> dict[str, tuple[Key, bool]]:
-    """Return, for each key that a class reads, (`Key`, whether it is beside the class's key)."""
+    """Return the readers of a class's keys.
+
+    Returns:
+        Mapping from each key that the class reads to (`Key`, whether the key is written next to the
+        class's own key).
+    """
     return {
         one.key or name: (Key(one.read, one.default), one.beside)
         for name, one in kind.declared.items()
@@ -378,7 +383,7 @@ def _tag(
 
 
 def _entries_of(kind: type, key: Scalar) -> Reader:
-    """Return a reader for the value of the key that names a class; it returns the class's fields.
+    """Return a reader for the value of `key`, which names a class; the reader returns the fields.
 
     The value is a mapping, or a single value for the class's field `short`.
     """

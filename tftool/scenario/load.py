@@ -49,7 +49,7 @@ _WHEN = ("at", "by", "during", "always")
 _WORD = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 
 MOST_JUDGEMENTS = 1_000_000
-"""Most judgements of all expectations of a scenario together."""
+"""Largest number of judgements of all expectations of a scenario together."""
 
 
 def load(
@@ -259,7 +259,7 @@ class _ScenarioReader:
     def check_robots(
         self, nodes: Iterable[Node], items: Iterable[tuple[str, str, Any]], reading: Reading
     ) -> None:
-        """Report each node that would move another robot, or would not know which robot it is on.
+        """Report nodes that move the same robot, and nodes whose `base` is no robot's base.
 
         Raises:
             Unreadable: If there is such a node.

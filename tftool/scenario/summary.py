@@ -16,7 +16,7 @@ from tftool.scenario.scenario import Scenario, Verdict
 from tftool.world.clock import SimClock, run
 
 MOST_FRAMES = 20
-"""Most frames whose final poses and distances are listed."""
+"""Largest number of frames whose final poses and distances are listed."""
 
 
 @dataclass(frozen=True, slots=True)

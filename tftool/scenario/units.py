@@ -300,5 +300,5 @@ def moment(node: Node, reading: Reading) -> RelativeMoment:
         return RelativeMoment("now", -duration(reading.part(node, ago[1]), reading))
     if _NUMBER.fullmatch(value) is None:
         near = suggest(value, ("latest", "now")) or "; it may be latest, now, now - 5 s, or 12.5 s"
-        raise reading.refuse(node, f"{quoted(value)} is not a moment{near}")
+        raise reading.refuse(node, f"{quoted(value)} is not a time{near}")
     return RelativeMoment("start", duration(node, reading))

@@ -12,8 +12,8 @@ if TYPE_CHECKING:
     from tftool.world.world import World
 
 KEPT: Final = 100
-"""Goals stored for each action: running ones and, for late requests, ended ones. When as many goals
-are running, a new one is rejected."""
+"""Largest number of goals stored for each action: running goals, and ended goals for late requests.
+If this many goals are running, a new goal is rejected."""
 
 CANCEL_GOAL: Final = "action_msgs/srv/CancelGoal"
 STATUS: Final = "action_msgs/msg/GoalStatusArray"

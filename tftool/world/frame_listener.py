@@ -78,7 +78,7 @@ def run_apart(clock: Clock, work: Coroutine[Any, Any, T]) -> T:
 
 
 MOST: Final = 50
-"""Most messages received per topic, so that images do not crowd out other messages."""
+"""Largest number of messages received per topic, so that images do not displace other messages."""
 
 MOST_TOPICS: Final = 500
 

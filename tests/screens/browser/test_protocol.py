@@ -101,7 +101,7 @@ def test_what_the_page_may_say(said, kind, fields):
         ),
         (TRAILS % "[1]", "60 names"),
         (TRAILS % json.dumps(["a"] * 61), "60 names"),
-        (SERIES % (5, 4, 10), "after its begin"),
+        (SERIES % (5, 4, 10), "after it begins"),
         (SERIES % ("NaN", 4, 10), "a number of seconds"),
         (SERIES % ("null", 4, 10), "a number of seconds"),
         (SERIES % (0, 4, 1), "from 2 to 2000"),

@@ -287,7 +287,7 @@ def test_one_file_is_written_at_a_time():
         answers = await asyncio.gather(*(fetch(page.port, path) for _ in range(4)))
         assert sorted(status for status, _, _ in answers) == [200, 503, 503, 503]
         assert {body for status, _, body in answers if status == 503} == {
-            b"A file is being written; ask again afterwards.\n"
+            b"Another file is being written: try again later.\n"
         }
         assert (await fetch(page.port, path))[0] == 200
 

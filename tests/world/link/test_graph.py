@@ -106,7 +106,7 @@ def test_processes_that_do_not_answer_are_named_with_what_to_do():
 
     assert LinkContext(Options(), Nothing(there)).unanswering == ""
     assert LinkContext(Options(), Nothing(there, (7,))).unanswering == (
-        "Process 7 of this machine does not answer (stopped with Ctrl-Z?): let it go on "
+        "Process 7 of this machine does not answer (stopped with Ctrl-Z?): resume it "
         "(fg, or kill -CONT 7), or end it (kill -9 7)."
     )
     several = LinkContext(Options(), Nothing(there, (7, 8))).unanswering

@@ -37,7 +37,7 @@ class Cadence:
 
 
 IN_FLIGHT = 2
-"""Most messages with poses that are sent to a page before it acknowledges the first."""
+"""Largest number of messages with poses that are sent before the page acknowledges the first."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,7 +121,7 @@ class PageClient:
         self._asked = True
 
     def wants(self) -> bool:
-        """Return whether to send poses: always in the present, else once after a request."""
+        """Return whether to send poses: always at the present time, else once per request."""
         asked, self._asked = self._asked, False
         return asked or self.at is None
 

@@ -36,7 +36,7 @@ ACCUMULATED: Final = frozenset(markers.TYPES)
 """Types whose messages change what earlier ones showed, so that every message must be drawn."""
 
 MOST_TOPICS: Final = 40
-"""Most topics that are drawn."""
+"""Largest number of topics that are drawn."""
 
 _MOST_FAULTS: Final = 10
 
@@ -206,7 +206,7 @@ MOST_BYTES: Final = 6_000_000
 """Bytes of a round after which no further message is added; 200 000 points have 4.8 MB."""
 
 MOST_HELD: Final = 1000
-"""Most messages of one topic that wait to be drawn; a further one drops the oldest."""
+"""Largest number of one topic's messages that wait to be drawn; a further one drops the oldest."""
 
 
 @dataclass(slots=True)

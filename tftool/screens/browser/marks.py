@@ -15,10 +15,10 @@ from tftool.screens.browser.page_messages import answer
 from tftool.screens.browser.protocol import since
 
 MOST_GAPS: Final = 2000
-"""Most gaps in the message; of more, the longest."""
+"""Largest number of gaps in the message; the longest gaps are sent."""
 
 MOST_FINDINGS: Final = 200
-"""Most findings in the message, the worst first."""
+"""Largest number of findings in the message; the worst findings are sent."""
 
 
 def marks_of(buffer: Buffer, epoch: Stamp) -> dict[str, Any]:

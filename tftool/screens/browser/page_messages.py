@@ -20,10 +20,10 @@ from typing import Any, Final
 from tftool.base.errors import InputError
 
 MOST_MOMENTS: Final = 2000
-"""Most times of a pair in one message: a plot has no more columns."""
+"""Largest number of times of a pair in one message: a plot has no more columns."""
 
 MOST_TRAILS: Final = 60
-"""Most frames whose trails are in one message."""
+"""Largest number of frames whose trails are in one message."""
 
 MOST_BYTES: Final = 16 * 1024
 """Longest message from a page in bytes: enough for two names of some thousand letters."""
@@ -253,7 +253,7 @@ def parse(message: str | bytes) -> PageRequest:
     if kind == "pair" and (fields["target"] is None) != (fields["source"] is None):
         raise InputError("a pair must be two names of frames, or null twice")
     if "from" in fields and not fields["from"] < fields["to"]:
-        raise InputError("the end of a series must be after its begin")
+        raise InputError("a series must end after it begins")
     return PageRequest(kind, fields)
 
 

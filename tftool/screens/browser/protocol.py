@@ -21,7 +21,7 @@ HISTORY = 120
 """Number of past times sent to a new page; fewer if there are many frames."""
 
 MOST_FRAMES = 2000
-"""Most frames shown; a browser could not draw or list more at a useful rate."""
+"""Largest number of frames shown; a browser could not draw or list more at a useful rate."""
 
 
 def since(epoch: Stamp, stamp: Stamp) -> float:

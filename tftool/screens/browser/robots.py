@@ -22,7 +22,7 @@ from tftool.screens.browser.page_messages import answer
 from tftool.screens.terminal.sliders import Positions, slide_range
 
 MOST_SHAPES = 5000
-"""Most shapes of one robot that are drawn."""
+"""Largest number of shapes of one robot that are drawn."""
 
 
 @dataclass(slots=True)

@@ -70,7 +70,7 @@ DISPLAYS_RATE = 10.0
 """Rate in hertz at which messages to draw are sent to pages."""
 
 TREES_KEPT = 8
-"""Most states of the tree whose messages with names are stored."""
+"""Largest number of states of the tree whose messages with names are stored."""
 
 # The library logs failed handshakes of any client, which must not reach the terminal.
 _LOGGER = logging.getLogger("tftool.view")
@@ -413,7 +413,7 @@ class PageServer:
         """
         if self._writing is not None:
             return _refuse(
-                HTTPStatus.SERVICE_UNAVAILABLE, "A file is being written; ask again afterwards."
+                HTTPStatus.SERVICE_UNAVAILABLE, "Another file is being written: try again later."
             )
         given_up = self._writing = threading.Event()
         view = parse_qs(query).get("view", [""])[0]

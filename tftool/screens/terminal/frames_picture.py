@@ -158,7 +158,7 @@ KEPT = seconds(60.0)
 """Nanoseconds of a trail that are stored while it is being watched."""
 
 MOST_FRAMES = 24
-"""Most frames with trails."""
+"""Largest number of frames with trails."""
 
 FADED = Color(112, 116, 130)
 """Colour of a trail as old as `REACH`, faint on light and dark backgrounds."""

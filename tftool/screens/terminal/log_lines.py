@@ -12,7 +12,7 @@ from tftool.screens.terminal.text_style import Look, wrapped
 from tftool.world.log import PROBLEMS, LogRecord
 
 MOST_LINES = 4
-"""Most lines of one message."""
+"""Largest number of lines of one message."""
 
 EMPTY = "Log messages appear here."
 """Text of a log without a message."""

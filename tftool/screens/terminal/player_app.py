@@ -49,7 +49,7 @@ TIMELINE: Final = 6
 """Lines of the timeline, with its border."""
 
 MOST_LISTED: Final = 8
-"""Most findings in the list; it scrolls with the position."""
+"""Largest number of findings in the list; it scrolls with the position."""
 
 TOPICS: Final = 40
 """Width in cells of the list of topics, with its border."""

@@ -7,7 +7,7 @@ from tftool.screens.terminal import panel_text as panels
 from tftool.screens.terminal.scene import Scene, SceneMoment
 
 PATIENCE = seconds(4.0)
-"""Nanoseconds to wait for the frames of the first pair, and then of another."""
+"""Nanoseconds to wait for the frames of the first pair before another pair is shown."""
 
 
 class SceneQuestion:
@@ -79,7 +79,7 @@ class SceneQuestion:
         self.target, self.source, self._picked = self.source, self.target, True
 
     def travel(self, step: Duration) -> None:
-        """Move the selected time by `step` nanoseconds; from the present on, show live frames."""
+        """Move the selected time by `step` nanoseconds; at the present, show live frames."""
         now = self.scene.world.clock.now()
         there = (now if self.at is None else self.at) + step
         self.at = None if there >= now else max(there, self.scene.oldest())

@@ -39,7 +39,7 @@ FLASH = seconds(0.4)
 """Nanoseconds for which a wall is highlighted after a turtle hit it."""
 
 NEAR = 1e-3
-"""Most metres between the end of a turtle's last stroke and the turtle's rounded position."""
+"""Largest distance in metres from the end of a turtle's last stroke to its rounded position."""
 
 
 @dataclass(frozen=True, slots=True)

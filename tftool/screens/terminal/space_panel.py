@@ -25,7 +25,7 @@ FARTHEST = 1e9
 """Metres from the fixed frame beyond which nothing is drawn."""
 
 MOST_STROKES = 3000
-"""Most strokes drawn of a drawing, and of all trails: the newest ones."""
+"""Largest number of strokes drawn of a drawing, and of all trails; older strokes are left out."""
 
 FEW = 0xE0E0E0
 """Mask of the bits of a trail's colour that are used, so that there are few colours."""

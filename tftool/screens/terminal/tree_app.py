@@ -30,7 +30,7 @@ from tftool.world.world import TransformMessage, World
 LOOKS_PER_SECOND = 2
 
 HEADINGS = 2
-"""Most lines above the frames."""
+"""Largest number of lines above the frames."""
 
 WITH_SPACE, LEAST_SPACE = 60, 9
 """Smallest columns of a screen, and rows of the picture, for a picture below the tree."""

@@ -42,8 +42,8 @@ WITH_WRAPPED_LOG = 36
 """Smallest number of rows with the newest log message wrapped rather than cut."""
 
 REST = 5.0
-"""Pause after a picture, in multiples of the time that the picture took. With the terminal's own
-drawing, 0.4 times as long again, the demo stays below a quarter of a core."""
+"""Pause after a picture, as a multiple of the time that tftool needed to draw the picture. With the
+terminal's own drawing (0.4 times this time), the demo still uses less than a quarter of a core."""
 
 STEP, LEAP = seconds(0.1), seconds(1.0)
 
@@ -531,7 +531,7 @@ class TurtleApp(PanelApp):
         self.redraw()
 
     def action_travel(self, step: Duration) -> None:
-        """Move the shown time by `step` nanoseconds; from the present on, show the live state."""
+        """Move the shown time by `step` nanoseconds; at the present, show the live state."""
         self._question.travel(step)
         self.redraw()
 

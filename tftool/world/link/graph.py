@@ -14,10 +14,10 @@ SERVER: Final = "server"
 KINDS: Final = (NODE, PUBLISHER, SUBSCRIPTION, SERVER, CLIENT)
 
 MOST: Final = 20_000
-"""Most entries of the graph; further announcements are ignored."""
+"""Largest number of entries of the graph; further announcements are ignored."""
 
 MOST_DOMAINS: Final = 100
-"""Most other domains that are stored, so that each is reported once."""
+"""Largest number of other domains that are stored, so that each is reported once."""
 
 
 @dataclass(frozen=True, slots=True)

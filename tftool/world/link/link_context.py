@@ -67,7 +67,7 @@ class LinkContext:
         does, it = ("does", "it") if len(found) == 1 else ("do", "them")
         return (
             f"{which.capitalize()} {', '.join(found)} of this machine {does} not answer (stopped "
-            f"with Ctrl-Z?): let {it} go on (fg, or kill -CONT {' '.join(found)}), or end {it} "
+            f"with Ctrl-Z?): resume {it} (fg, or kill -CONT {' '.join(found)}), or end {it} "
             f"(kill -9 {' '.join(found)})."
         )
 

@@ -11,10 +11,10 @@ from typing import Any, Final
 from tftool.base.errors import LinkError
 
 MOST_WAITING: Final = 50_000
-"""Most messages in the queue; further ones are dropped, and counted."""
+"""Largest number of messages in the queue; further ones are dropped, and counted."""
 
 MOST_BYTES: Final = 256 * 1024 * 1024
-"""Most bytes of messages in the queue."""
+"""Largest number of bytes of messages in the queue."""
 
 _SLICE: Final = 200
 
@@ -118,10 +118,10 @@ MOST_AHEAD: Final = 32
 """Number of queued messages above which the event loop waits for the sender."""
 
 MOST_UNSENT: Final = 20_000
-"""Most messages in the queue while a reader takes nothing; then the event loop waits a while."""
+"""Largest number of queued messages while a reader takes none; then the event loop waits."""
 
 MOST_UNSENT_BYTES: Final = 256 * 1024 * 1024
-"""Most bytes in the queue in the same case, as images are large."""
+"""Largest number of queued bytes while a reader takes no message, because images are large."""
 
 LONGEST_WAIT: Final = 2.0
 """Longest wait in seconds of the event loop for room; then messages are dropped."""

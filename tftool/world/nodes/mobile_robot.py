@@ -108,9 +108,10 @@ class _Observer(Node):
     _truth: Any = None
 
     def _follow_truth(self, base: str) -> None:
-        """Subscribe to the true pose of the robot `base`; if there is one robot only, of this one.
+        """Subscribe to the true pose of the robot whose base frame is `base`.
 
-        A laser may name another frame of its robot as its base.
+        If the world has only one robot, subscribe to that robot's pose for any `base`, because a
+        laser may be mounted on another frame of the robot.
         """
 
         def take(truth: Any) -> None:

@@ -21,10 +21,10 @@ TICK: Final = seconds(0.025)
 """Real nanoseconds between two messages on `/clock`, as in rosbag2."""
 
 AT_ONCE: Final = 500
-"""Most messages sent at once, before other tasks get a turn."""
+"""Largest number of messages sent at once, before other tasks get a turn."""
 
 RECENT: Final = seconds(1)
-"""Nanoseconds before a time whose transforms are sent with its frames, at most `AT_ONCE`."""
+"""Nanoseconds before a sought time whose transforms are sent too, at most `AT_ONCE` of them."""
 
 SLOWEST, FASTEST = 0.01, 100.0
 """Smallest and largest rate of a player."""

@@ -15,7 +15,7 @@ from tftool.world.world import World
 POINT_TOPIC = "turtle_point_stamped"
 
 QUEUE_LENGTH = 100
-"""Most points that wait for their transform; a further one drops the oldest."""
+"""Largest number of points that wait for their transform; a further one drops the oldest."""
 
 
 class MessageBroadcaster(Node):

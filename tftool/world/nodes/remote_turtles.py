@@ -23,7 +23,7 @@ SILENT: Final = seconds(1)
 """Nanoseconds without a pose after which a turtle or its simulator counts as gone."""
 
 MOST: Final = 50
-"""Most turtles to subscribe to: each sends 62 poses a second."""
+"""Largest number of turtles to subscribe to: each sends 62 poses a second."""
 
 PERIOD: Final = seconds(0.05)
 """Nanoseconds between two requests for new strokes while a turtle moves."""

@@ -155,7 +155,7 @@ def _between(slope: float, offset: float, low: float, high: float) -> tuple[floa
 SERVICE: Final = "_drawing"
 
 MOST_STROKES: Final = 2000
-"""Most strokes in one response; the next response continues there."""
+"""Largest number of strokes in one response; the next response continues there."""
 
 INTERFACES.add(
     "tftool_interfaces",

@@ -269,7 +269,7 @@ Work = Callable[[Stamp], T]
 
 
 MOST_WAITING = 10_000
-"""Most pieces of work that wait for a tick, which a publisher that never pauses may delay."""
+"""Largest number of requests that wait for a tick; a tick is late if a publisher never pauses."""
 
 
 class TickQueue:

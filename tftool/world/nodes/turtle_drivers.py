@@ -303,7 +303,7 @@ SCALE_ANGULAR = 2.0
 """Turn rate of the arrow keys in rad/s, unless a parameter says otherwise."""
 
 MOST_SENDING = 100
-"""Most goals sent to the simulator without a decision; further keys are ignored meanwhile."""
+"""Largest number of goals without a decision of the simulator; further keys are then ignored."""
 
 Action = Literal["cmd_vel", "rotate", "cancel", "quit"]
 

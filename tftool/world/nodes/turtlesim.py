@@ -27,7 +27,7 @@ from tftool.world.nodes.turtle import (
 from tftool.world.world import World
 
 MOST_TURTLES = 1000
-"""Most turtles at once, because each is updated at every tick."""
+"""Largest number of turtles at once, because each is updated at every tick."""
 
 BACKGROUND_PARAMETERS = ("background_r", "background_g", "background_b")
 

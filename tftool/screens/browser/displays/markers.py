@@ -27,7 +27,7 @@ TYPES: Final = ("visualization_msgs/msg/MarkerArray", "visualization_msgs/msg/Ma
 DELETE, DELETE_ALL = 2, 3
 
 MOST_SHAPES: Final = 2000
-"""Most shapes of one topic; a page would draw more too slowly."""
+"""Largest number of shapes of one topic; a page would draw more too slowly."""
 
 HEAD: Final = 0.23
 """Length of an arrow's head as a share of the arrow, as in rviz."""

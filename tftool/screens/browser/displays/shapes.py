@@ -13,7 +13,7 @@ Places = npt.NDArray[np.float32]
 """Positions in the frame of the shape, metres, shape (n, 3)."""
 
 MOST_POINTS: Final = 200_000
-"""Most points drawn of one shape; of more, every second or third is drawn."""
+"""Largest number of points of one shape; of a larger shape, every second or third is drawn."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

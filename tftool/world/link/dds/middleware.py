@@ -110,13 +110,13 @@ class DdsMiddleware(Middleware):
             others = other_domains(self._options.domain)
             elsewhere = f"; programs of this machine use {_listed(others)}" if others else ""
             way = (
-                "a robot elsewhere needs --dds-on INTERFACE"
+                "for a robot on another machine, add --dds-on INTERFACE"
                 if self._network.is_loopback
-                else "is it the right interface?"
+                else "check that this is the right interface"
             )
             self.notices += (
                 f"No other DDS program answers in domain {self._options.domain} on "
-                f"{self._network}{elsewhere}: {way}, another domain --domain N.",
+                f"{self._network}{elsewhere}: {way}; for another domain, add --domain N.",
             )
 
     @property
@@ -358,9 +358,9 @@ class DdsMiddleware(Middleware):
             wants = "reliable" if policy == "RELIABILITY" else "transient local"
             self.say_once(
                 f"quality {found.name} {found.node}",
-                f"'{found.node}' publishes /{found.name} as {offers}, and tf2 asks for {wants}: "
-                f"neither tf2's listeners nor this process receive it ({policy}). Let "
-                f"'{found.node}' offer {wants}.",
+                f"'{found.node}' publishes /{found.name} as {offers}, but tf2 asks for {wants}: "
+                f"neither tf2's listeners nor this process receive these messages ({policy}). "
+                f"Let '{found.node}' offer {wants}.",
             )
         if not found.type_hash or not INTERFACES.has(found.ros_type):
             return

@@ -131,7 +131,7 @@ LARGEST: Final = 64 * 1024 * 1024
 """Largest received message in bytes; larger ones are dropped."""
 
 AT_ONCE: Final = 256
-"""Most messages taken from a reader at once."""
+"""Largest number of messages taken from a reader at once."""
 
 PATIENCE: Final = 1_000_000_000
 """Nanoseconds that a reliable writer waits for a reader that has not taken earlier messages."""

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 NO_WHEEL: Final = (
     "DDS needs the package 'cyclonedds', which is missing here ({error}): pip install "
-    "'tftool-tf2[dds]'. Where there is no wheel of it (Linux on arm64, Python 3.14), build it "
+    "'tftool-tf2[dds]'. If there is no wheel (Linux on arm64, Python 3.14), build the package "
     "from source with Cyclone DDS, or run zenoh-bridge-ros2dds on the robot and use --connect."
 )
 

@@ -20,7 +20,7 @@ MOST_PARTICIPANTS: Final = 120
 """Largest number of participants of one machine in a domain."""
 
 _LARGE_PACKETS: Final = "<MaxMessageSize>65000B</MaxMessageSize><FragmentSize>62000B</FragmentSize>"
-"""Setting for large packets on the loopback, which carries in one what a cable needs forty for."""
+"""Setting for large packets on the loopback: one such packet replaces forty Ethernet packets."""
 
 _RANGES: Final = ("SUBNET", "LOCALHOST", "OFF", "SYSTEM_DEFAULT")
 
@@ -139,7 +139,7 @@ def _confined(variables: Mapping[str, str]) -> str:
     if reach == "OFF":
         raise LinkError(
             "ROS_AUTOMATIC_DISCOVERY_RANGE=OFF turns discovery off, so no process can be found: "
-            "unset it, or set it to LOCALHOST"
+            "unset the variable, or set it to LOCALHOST"
         )
     # If both are set, ROS 2 uses the older one.
     if variables.get("ROS_LOCALHOST_ONLY", "").strip() == "1":

@@ -62,7 +62,7 @@ _MOST_REFUSED: Final = 5
 """Refusals of one channel after which its subscription is given up."""
 
 _WAITING: Final = 4
-"""Most unread frames in `websockets`; beyond them the server has to wait."""
+"""Largest number of unread frames in `websockets`; beyond this number the server has to wait."""
 
 
 class FoxgloveData(NamedTuple):

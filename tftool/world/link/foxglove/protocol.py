@@ -35,16 +35,16 @@ LARGEST_TEXT: Final = 32 * 1024 * 1024
 """Longest JSON message in characters."""
 
 MOST_CHANNELS: Final = 5_000
-"""Most channels of a server that are stored; further ones are ignored."""
+"""Largest number of channels of a server that are stored; further channels are ignored."""
 
 MOST_NODES: Final = 10_000
-"""Most publishers, subscribers and services of a server that are stored, each."""
+"""Largest numbers, each, of stored publishers, subscribers and services of a server."""
 
 MOST_DEFINITIONS: Final = 32 * 1024 * 1024
-"""Most characters of definitions that are stored."""
+"""Largest number of characters of definitions that are stored."""
 
 MOST_WARNINGS: Final = 10
-"""Most sentences from a server that are passed on to the user per connection."""
+"""Largest number of sentences from a server that the user sees per connection."""
 
 _LONGEST_NAME: Final = 300
 _DATA: Final = struct.Struct("<BIQ")
