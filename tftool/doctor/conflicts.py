@@ -490,15 +490,15 @@ def _conflict(
     """
     rates, late = [], []
     known = confidence is Confidence.CERTAIN
+    is_one = not known and len(track.nodes) == 1 and len(track.publishers) == 1
     both = int(np.ptp(track.stamps[np.concatenate(sent)]))
     for places in sent:
         stamps = track.stamps[places]
-        lasts = int(np.ptp(stamps)) if known else both
+        lasts = both if is_one else int(np.ptp(stamps))
         rates.append((len(stamps) - 1) * NANOSECONDS / lasts if lasts else 0.0)
         late.append(int(np.median(track.latency[places])))
     apart, turned = track.apart(*owned), track.turned(*owned)
     seen = f": {names[0]} and {names[1]}" if known else ", by turns"
-    is_one = not known and len(track.nodes) == 1 and len(track.publishers) == 1
     fix = find_publishers([track])
     if is_one:
         seen = f", by turns, both sent by {track.nodes[0]}"
