@@ -2,12 +2,16 @@ import json
 import re
 import subprocess
 import sys
+from io import BytesIO
 from pathlib import Path
 
 import pytest
 import yaml
 
 from tests.recordings.writers import Sent, numbers, write_mcap
+from tftool import Buffer, Transform, TransformStamped
+from tftool.drawing.picture import lay_out
+from tftool.drawing.tree_picture import png
 
 ROOT = Path(__file__).parents[2]
 
@@ -80,6 +84,34 @@ def test_a_file_gets_what_its_suffix_or_the_format_says(
     content = file.read_bytes()
     assert content.startswith(opening)
     assert b"turtle1" in content or form in ("pdf", "png")
+
+
+def test_a_png_names_the_letters_that_its_font_lacks(tftool, tmp_path):
+    pytest.importorskip("matplotlib")
+    (tmp_path / "odd.yaml").write_text(
+        'duration: 6 s\nnodes: [static: {parent: "日本", child: "wörld"}]\n', encoding="utf-8"
+    )
+
+    told = tftool("tree", tmp_path / "odd.yaml", "-o", tmp_path / "odd.png").err
+
+    assert "the PNG's font has no letter for 日 本: svg and html show these letters\n" in told
+
+
+def test_a_long_name_in_a_png_ends_before_the_word_static():
+    pytest.importorskip("matplotlib")
+    from matplotlib.image import imread
+
+    buffer = Buffer()
+    name = "a very long frame name that goes on and on_0123456789_0123456789"
+    buffer.set_transform_static(TransformStamped(0, "world", name, Transform()))
+    snapshot = buffer.snapshot(0)
+    (note,) = [one for one in lay_out(snapshot).texts if one.kind == "note"]
+    image = imread(BytesIO(png(snapshot).content))
+
+    # Two pixels are one unit of the picture.
+    x, y = round(2 * note.x), round(2 * note.y)
+    gap = image[y - 20 : y + 4, x - 14 : x - 4]
+    assert gap.min(axis=(0, 1)).tolist() == gap.max(axis=(0, 1)).tolist()
 
 
 def test_data_for_programs_is_what_it_says_it_is(tftool):

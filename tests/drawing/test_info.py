@@ -24,6 +24,18 @@ def test_numbers_stand_under_each_other_at_their_right_ends():
     assert told == ["  edge  count  kind", "  a         7  static", "  b     1,234  dynamic"]
 
 
+def test_wide_letters_take_two_cells():
+    rows = [("日本語 in map", "static", "-"), ("base", "dynamic", "10.0 Hz")]
+
+    lines = table(("edge", "kind", "rate"), rows)
+
+    starts = [
+        line.index(word) for line, word in zip(lines, ("kind", "static", "dynamic"), strict=True)
+    ]
+    columns = [cell_len(line[:at]) for line, at in zip(lines, starts, strict=True)]
+    assert columns == [17, 17, 17]
+
+
 def test_with_room_every_column_stands_there_whole():
     assert told(None) == told(200)
     assert told(None)[1].split()[-1] == ROWS[0][3]

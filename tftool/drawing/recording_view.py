@@ -246,11 +246,13 @@ def table(
         optional: Headings of columns to narrow or omit if the table is too wide, in this order.
         right: Headings of columns with numbers, which are aligned to the right.
     """
-    widths = [min(_WIDEST, max(map(len, column))) for column in zip(heads, *rows, strict=True)]
+    widths = [min(_WIDEST, max(map(cell_len, column))) for column in zip(heads, *rows, strict=True)]
     lines = [
         "  "
         + "  ".join(
-            cell.rjust(width) if head in right else cell.ljust(width)
+            " " * (width - cell_len(cell)) + cell
+            if head in right
+            else cell + " " * (width - cell_len(cell))
             for head, cell, width in zip(heads, row, widths, strict=True)
         ).rstrip()
         for row in (heads, *rows)

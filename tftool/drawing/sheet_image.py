@@ -1,8 +1,11 @@
 """PNG file of a tree picture, drawn by matplotlib (the extra `plot`)."""
 
 import io
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from importlib import import_module
-from typing import Final
+from typing import Any, Final
 
 from tftool.base.errors import UsageError
 from tftool.drawing.picture import Box, Picture
@@ -68,7 +71,7 @@ def render(picture: Picture) -> bytes:
             )
         )
     for text in picture.texts:
-        axes.text(
+        drawn = axes.text(
             text.x,
             text.y,
             text.text.replace("$", r"\$"),
@@ -78,9 +81,35 @@ def render(picture: Picture) -> bytes:
             fontweight="bold" if text.kind == "name" else "normal",
             fontstyle="italic" if text.kind == "note" else "normal",
         )
+        # Only a text of many characters can be too wide; to measure a text takes time.
+        if text.size * len(text.text) > text.room:
+            drawn.set_fontsize(0.86 * text.size * min(1.0, text.room / _width(drawn)))
     file = io.BytesIO()
-    figure.savefig(file, format="png", dpi=72.0 * scale, facecolor="#fbfbfd")
+    with _without_warnings():
+        figure.savefig(file, format="png", dpi=72.0 * scale, facecolor="#fbfbfd")
     return file.getvalue()
+
+
+def missing_letters(picture: Picture) -> str:
+    """Return the letters of a picture's texts that the PNG's font lacks, each once."""
+    fonts = import_module("matplotlib.font_manager")
+    known = fonts.get_font(fonts.findfont(fonts.FontProperties())).get_charmap()
+    return "".join(
+        dict.fromkeys(c for text in picture.texts for c in text.text if ord(c) not in known)
+    )
+
+
+def _width(drawn: Any) -> float:
+    with _without_warnings():
+        return max(1.0, float(drawn.get_window_extent().width))
+
+
+@contextmanager
+def _without_warnings() -> Iterator[None]:
+    """Suppress matplotlib's warning about each letter that its font lacks."""
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message="Glyph .* missing from font")
+        yield
 
 
 def _radius(box: Box) -> float:

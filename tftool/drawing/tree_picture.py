@@ -195,8 +195,11 @@ def png(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
         UsageError: If the extra `plot` is not installed.
     """
     picture = lay_out(snapshot, stale=_stale(marks))
-    note = _picture_note(picture.left_out)
-    return Drawing(sheet_image.render(picture), picture.left_out, note)
+    content = sheet_image.render(picture)
+    notes = [_picture_note(picture.left_out)]
+    if missing := sheet_image.missing_letters(picture):
+        notes.append(f"the PNG's font has no letter for {_listed(missing)}: {_SHOWN_BY}")
+    return Drawing(content, picture.left_out, "; ".join(filter(None, notes)))
 
 
 def _stale(marks: Marks) -> frozenset[str]:
@@ -204,16 +207,22 @@ def _stale(marks: Marks) -> frozenset[str]:
 
 
 _LETTERS_NAMED = 12
+_SHOWN_BY = "svg and html show these letters"
 
 
 def _letters_note(missing: str) -> str:
     if not missing:
         return ""
-    named = " ".join(missing[:_LETTERS_NAMED])
-    more = f" and {len(missing) - _LETTERS_NAMED} more" if len(missing) > _LETTERS_NAMED else ""
     return (
-        f"the PDF's font has no letter for {named}{more}: each is written as its number, "
-        f"<U+{ord(missing[0]):04X}>; svg and html show these letters"
+        f"the PDF's font has no letter for {_listed(missing)}: each is written as its number, "
+        f"<U+{ord(missing[0]):04X}>; {_SHOWN_BY}"
+    )
+
+
+def _listed(letters: str) -> str:
+    named = " ".join(letters[:_LETTERS_NAMED])
+    return named + (
+        f" and {len(letters) - _LETTERS_NAMED} more" if letters[_LETTERS_NAMED:] else ""
     )
 
 
