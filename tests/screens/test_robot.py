@@ -10,7 +10,7 @@ from tftool.drawing.solids import solids_of
 from tftool.robots.mesh_folders import MeshFolders
 from tftool.robots.robot_model import Robot
 from tftool.robots.urdf import parse_description
-from tftool.screens.terminal.robot_app import RobotApp
+from tftool.screens.terminal.robot_app import KEYS, RobotApp
 from tftool.screens.terminal.screen_options import Setting
 from tftool.screens.terminal.sliders import Sliders, tip_of
 
@@ -188,13 +188,29 @@ def test_plain_characters_are_enough(shown):
     assert "\n".join(shown("question_mark", ascii_only=True)).isascii()
 
 
-@pytest.mark.parametrize(("resized", "left"), [((100, 24), 16), ((40, 12), 0)])
+@pytest.mark.parametrize(("resized", "left"), [((101, 24), 12), ((40, 12), 0)])
 def test_the_keys_stay_in_the_middle_of_a_window_that_changes(shown, resized, left):
     lines = shown("question_mark", resized=resized)
 
     edge = next(line for line in lines if "╭─ Keys" in line)
     assert edge.index("╭─ Keys") == left
     assert "╮" in edge
+
+
+@pytest.mark.parametrize("size", [(80, 24), (60, 20), (40, 12)])
+def test_all_keys_are_told_in_as_many_pages_as_fit(shown, size):
+    told, pages = [], 0
+    lines = shown("?", size=size)
+    while tops := [number for number, line in enumerate(lines) if "╭─ Keys" in line]:
+        left = lines[tops[0]].index("╭─ Keys")
+        box = slice(left + 1, lines[tops[0]].index("╮", left))
+        told += [line[box] for line in lines[tops[0] + 1 :] if line[left] == "│"]
+        pages += 1
+        lines = shown(*"?" * (pages + 1), size=size)
+    whole = " ".join(" ".join(line for line in told if "more keys" not in line).split())
+
+    assert all(" ".join(sentence.split()) in whole for sentence in KEYS.splitlines())
+    assert sum("more keys" in line for line in told) == pages - 1
 
 
 def test_a_robot_without_moving_joints_says_so():

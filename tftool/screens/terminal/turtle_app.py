@@ -78,7 +78,6 @@ class TurtleApp(PanelApp):
     .ascii #log {{ border: none; }}
     .ascii #log:focus {{ border: ascii $accent; }}
     """
-    KEYS_WIDTH = 76
     BINDINGS: ClassVar[list[BindingType]] = [
         *(
             Binding(key, f"steer('{key}')", show=False, priority=True)

@@ -3,6 +3,7 @@
 import asyncio
 import os
 from collections.abc import Callable, Coroutine, Iterable
+from textwrap import wrap
 from typing import Any, ClassVar
 
 from rich.segment import Segment
@@ -286,8 +287,8 @@ class PanelApp(WorldApp):
     keys_help: str
     """Text of the key help, with one line for each key."""
 
-    KEYS_WIDTH: ClassVar[int] = 68
-    """Width in cells of the panel with the key help."""
+    KEYS_WIDTH: ClassVar[int] = 77
+    """Largest width in cells of the panel with the key help."""
 
     CSS = FRAME_CSS
 
@@ -302,6 +303,7 @@ class PanelApp(WorldApp):
         super().__init__(world, setting)
         self.title = self.setting.title
         self._light = self.setting.light
+        self._keys_page = 0
 
     def on_mount(self) -> None:
         """Apply tftool's colours to the screen."""
@@ -331,9 +333,10 @@ class PanelApp(WorldApp):
         self.redraw()
 
     def action_keys(self) -> None:
-        """Show or hide the key help."""
+        """Show the key help, its next page, or hide it after the last page."""
         panel = self.panel("keys")
-        panel.display = not panel.display
+        self._keys_page = self._keys_page + 1 if panel.display else 0
+        panel.display = self._keys_page < len(self._keys_pages(self.size))
         self._place_keys(self.size)
 
     def on_resize(self, event: events.Resize) -> None:
@@ -344,10 +347,10 @@ class PanelApp(WorldApp):
         panel = self.panel("keys")
         if not panel.display:
             return
-        lines = self.keys_help.splitlines()
+        pages = self._keys_pages(size)
+        self._keys_page = min(self._keys_page, len(pages) - 1)
+        lines = pages[self._keys_page]
         width, height = size
-        if len(lines) > height - 2:
-            lines = [line for line in lines if line]
         panel.styles.width = min(self.KEYS_WIDTH, width)
         panel.styles.height = min(len(lines) + 2, height)
         panel.styles.offset = (
@@ -355,6 +358,24 @@ class PanelApp(WorldApp):
             max(0, (height - len(lines) - 2) // 2),
         )
         panel.show([Text(line) for line in lines])
+
+    def _keys_pages(self, size: Size) -> list[list[str]]:
+        """Return the lines of the key help, in as many pages as a screen of this size needs."""
+        width, height = (max(1, cells - 2) for cells in (min(self.KEYS_WIDTH, size[0]), size[1]))
+        lines = [
+            part
+            for line in self.keys_help.splitlines()
+            for part in wrap(line, width, subsequent_indent=" " * 14) or [""]
+        ]
+        if len(lines) > height:
+            lines = [line for line in lines if line]
+        if len(lines) <= height:
+            return [lines]
+        step = max(1, height - 1)  # the last line of a page names the next page
+        pages = [lines[start : start + step] for start in range(0, len(lines), step)]
+        for number, page in enumerate(pages[:-1], 1):
+            page.append(f" ?            more keys (page {number} of {len(pages)})")
+        return pages
 
     def _shade(self) -> None:
         self.theme = "tftool-light" if self._light else "tftool-dark"
