@@ -126,6 +126,26 @@ def test_rows_of_another_command_are_not_gone_on_with(tftool, fleet, tmp_path, f
         output.unlink()
 
 
+JUMP = """\
+duration: 4 s
+nodes: [turtlesim, broadcaster: {turtle: turtle1}]
+script:
+  - {at: 2 s, teleport: {turtle: turtle1, x: 10, y: 10}}
+"""
+
+
+def test_a_scenario_is_played_for_its_rows(tftool, tmp_path):
+    (tmp_path / "jump.yaml").write_text(JUMP)
+    (tmp_path / "calm.yaml").write_text(f"{JUMP}doctor: {{ignore: [teleport]}}\n")
+    output = tmp_path / "found.jsonl"
+
+    result = tftool("doctor", tmp_path / "jump.yaml", tmp_path / "calm.yaml", "-o", output)
+
+    assert ids_of(rows_of(output)) == {"jump.yaml": "teleport", "calm.yaml": "none"}
+    assert (result.status, result.err) == (1, "")
+    assert tftool("doctor", tmp_path / "jump.yaml", "-o", output, "--from", "1").status == 2
+
+
 @pytest.mark.parametrize(
     "words", [["--junit", "report.xml"], ["--json"], ["--markdown"], ["--verbose"]]
 )

@@ -6,6 +6,7 @@ the crash is tried again in a new process.
 """
 
 import glob
+import math
 import os
 import sys
 from collections import Counter
@@ -31,11 +32,12 @@ from tftool.base.plain_text import visible
 from tftool.base.stamps import as_seconds
 from tftool.commands.fleet.rows import ColumnKind, Row, RowFile
 from tftool.commands.fleet.workers import Workers, processes
+from tftool.commands.shared.evidence_sources import refuse_part
 from tftool.commands.shared.notices import notice
-from tftool.doctor.evidence import Evidence, evidence_of_recording
+from tftool.doctor.evidence import Evidence, evidence_of_frames, evidence_of_recording
 from tftool.doctor.judge import judge
 from tftool.doctor.model import Model
-from tftool.opener import named
+from tftool.opener import named, open_frames, scenario_named
 from tftool.recordings.containers import SUFFIXES
 from tftool.recordings.find import METADATA, Kind, fetched, is_url, kind_of_file, listed
 from tftool.recordings.recording import open_recording
@@ -161,10 +163,15 @@ class Examination(FleetTask):
     scope: "Scope"
 
     def read(self, source: str, path: str) -> list[Row]:
-        """Return a row for each finding of one recording."""
-        rules, _ = rules_beside(path)
-        with open_recording(path) as recording:
-            material = evidence_of_recording(recording, self.scope)
+        """Return a row for each finding of one recording or scenario."""
+        if named(path).kind is Kind.SCENARIO:
+            refuse_part(self.scope)
+            rules = scenario_named(path).doctor
+            material = evidence_of_frames(open_frames(path, until=math.inf), self.scope)
+        else:
+            rules, _ = rules_beside(path)
+            with open_recording(path) as recording:
+                material = evidence_of_recording(recording, self.scope)
         diagnosis = judge(
             material,
             rules.settings(self.settings),

@@ -50,10 +50,8 @@ def evidence_from(
     """
     kind = None if word is None else named(word).kind
     is_recording = kind is not None and kind.is_recording
-    if not is_recording and (scope.tf_topics or scope.begin is not None or scope.end is not None):
-        raise UsageError(
-            "--tf-topic, --from and --to are only allowed for recordings: leave out these options."
-        )
+    if not is_recording:
+        refuse_part(scope)
     if kind is Kind.DESCRIPTION:
         shown = visible(word or "")
         raise UsageError(
@@ -84,6 +82,14 @@ def evidence_from(
     for text in () if frames.recording is None else frames.recording.source.oddities:
         notice(visible(text))
     return evidence if heard is None else replace(evidence, headers=heard.headers())
+
+
+def refuse_part(scope: Scope) -> None:
+    """Raise UsageError if `scope` selects a part, for a source that is not a recording."""
+    if scope.tf_topics or scope.begin is not None or scope.end is not None:
+        raise UsageError(
+            "--tf-topic, --from and --to are only allowed for recordings: leave out these options."
+        )
 
 
 def rules_of(source: str | None) -> DoctorRules:
