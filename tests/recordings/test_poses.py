@@ -39,10 +39,12 @@ def rows(path, text, **options):
         "\ufeff" + TUM.replace("\n", "\r\n"),
         "#timestamp [ns],p_RS_R_x [m],p_y,p_z,q_RS_w [],q_x,q_y,q_z\n"
         "1000000001,1,2,3,1,0,0,0\n2500000000,2,2,3,0.8,0,0,0.6,9,9,9\n",
+        "#timestamp, p_RS_R_x [m], p_y, p_z, q_RS_w [], q_x, q_y, q_z\n"
+        "1000000001,1,2,3,1,0,0,0\n2500000000,2,2,3,0.8,0,0,0.6\n",
         "stamp_ns,x_m,y_m,z_m,qx,qy,qz,qw\n"
         "1000000001,1,2,3,0,0,0,1\n2500000000,2,2,3,0,0,0.6,0.8\n",
     ],
-    ids=["tum", "tum-csv", "windows", "euroc", "csv"],
+    ids=["tum", "tum-csv", "windows", "euroc", "euroc-simulated", "csv"],
 )
 def test_a_trajectory_is_known_by_its_content_and_read_to_the_nanosecond(tmp_path, text):
     edge, stamps, translations, rotations = rows(tmp_path / "misleading.pdf", text)

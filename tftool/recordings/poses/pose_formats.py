@@ -90,14 +90,19 @@ def _is_tum(head: Head) -> bool:
 
 
 def _is_tum_with_commas(head: Head) -> bool:
-    if head.has_line(r"#.*\[ns\]"):
+    if head.has_line(r"#.*\[ns\]") or _has_euroc_header(head):
         return False
     return len(head.numbers) == 8 and head.has_commas and not head.has_nanoseconds
 
 
+def _has_euroc_header(head: Head) -> bool:
+    return re.match(r"#\s*timestamp\b.*q_RS_w", head.text) is not None
+
+
 def _is_euroc(head: Head) -> bool:
-    named = re.match(r"#\s*timestamp\b.*q_RS_w", head.text) is not None
-    return named or (len(head.numbers) >= 8 and head.has_commas and head.has_nanoseconds)
+    return _has_euroc_header(head) or (
+        len(head.numbers) >= 8 and head.has_commas and head.has_nanoseconds
+    )
 
 
 def _is_csv(head: Head) -> bool:
