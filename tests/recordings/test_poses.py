@@ -202,6 +202,20 @@ def test_what_cannot_be_read_is_refused_with_the_place(tmp_path, text, told):
         open_frames(tmp_path / "a")
 
 
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        (TUM, "a' has its own stamps: leave out --pose-rate"),
+        ("P0: 1 0 0 0 0 1 0 0 0 0 1 0\nTr: 1 0 0 0 0 1 0 0 0 0 1 0\n", "a' is static: leave out"),
+    ],
+)
+def test_a_rate_is_refused_for_a_file_that_needs_none(tmp_path, text, told):
+    (tmp_path / "a").write_text(text)
+
+    with pytest.raises(UsageError, match=told):
+        open_frames(tmp_path / "a", pose_rate=10)
+
+
 def test_a_named_format_decides_between_two(tmp_path):
     text = "1403636579763555584,1,2,3,0,0,0,1\n"
 

@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from tftool.base.errors import InputError
+from tftool.base.errors import InputError, UsageError
 from tftool.base.plain_text import count
 from tftool.base.stamps import NANOSECONDS
 from tftool.buffer.sample import TransformStamped
@@ -38,9 +38,16 @@ class PoseContainer:
 
         Raises:
             InputError: If the file cannot be read.
+            UsageError: If --pose-rate is given for a file with its own stamps, or without motion.
         """
         file = PoseFile(path, options, (form.parent, form.child))
         links = form.read(file)
+        if options.pose_rate is not None and not file.is_timed:
+            what = "is static" if all(link.static for link in links) else "has its own stamps"
+            raise UsageError(
+                f"'{path}' {what}: leave out --pose-rate, or write it after the file without "
+                "stamps."
+            )
         self.damage: list[str] = []
         self.oddities: list[str] = []
         self.size = path.stat().st_size

@@ -58,6 +58,7 @@ class PoseFile:
         options: Options for reading.
         default: Default names of parent and child.
         oddities: Number of unusual rows, by a phrase such as "rows out of order".
+        is_timed: Whether the stamps come from --pose-rate.
     """
 
     def __init__(self, path: Path, options: PoseOptions, default: tuple[str, str]) -> None:
@@ -72,6 +73,7 @@ class PoseFile:
         self.options = options
         self.default = default
         self.oddities: Counter[str] = Counter()
+        self.is_timed = False
         self._place = 0
 
     @property
@@ -180,6 +182,7 @@ class PoseFile:
         rate = self.options.pose_rate
         if rate is None:
             raise InputError(f"'{self.path}' has no stamps: give a rate with --pose-rate HZ.")
+        self.is_timed = True
         count = len(link.numbers) // link.width
         # In tf2, stamp 0 means the latest, so the first pose must not have it.
         link.stamps = array("q", (round(place * 1e9 / rate) for place in range(1, count + 1)))
