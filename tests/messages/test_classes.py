@@ -294,3 +294,28 @@ def test_threads_that_need_one_class_at_the_same_time_get_the_same_class():
             assert len(found) == 1
     finally:
         sys.setswitchinterval(before)
+
+
+def test_a_package_can_be_added_while_other_threads_create_classes():
+    interfaces = Interfaces()
+    for number in range(400):
+        interfaces.add(f"known{number}", {("msg", "One"): "int32 x"})
+
+    def create():
+        for number in range(400):
+            interfaces.message(f"known{number}/One")
+
+    def add():
+        for number in range(400):
+            interfaces.add(f"added{number}", {("msg", "One"): "int32 x"})
+
+    switch = sys.getswitchinterval()
+    sys.setswitchinterval(1e-6)
+    try:
+        with ThreadPoolExecutor(2) as pool:
+            done = [pool.submit(work) for work in (create, add)]
+    finally:
+        sys.setswitchinterval(switch)
+
+    assert [one.exception() for one in done] == [None, None]
+    assert interfaces.message("added399/One")().x == 0

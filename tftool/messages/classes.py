@@ -265,12 +265,15 @@ class Interfaces(Schema):
 
     def add(self, package: str, texts: Mapping[tuple[str, str], str]) -> None:
         """Add the interface definitions of a user's package, by (kind, name)."""
-        # Classes compare by identity, so unchanged definitions must keep their classes.
-        if self.knows(package, texts):
-            return
-        super().add(package, texts)
-        for full in [full for full in self._made if full.startswith(f"{package}/")]:
-            del self._made[full]
+        # Programs start in several threads: without the lock, a class that one of them creates
+        # meanwhile would end the loop of another with an error.
+        with self._lock:
+            # Classes compare by identity, so unchanged definitions must keep their classes.
+            if self.knows(package, texts):
+                return
+            super().add(package, texts)
+            for full in [full for full in self._made if full.startswith(f"{package}/")]:
+                del self._made[full]
 
     def find(self, package: str, kind: str, name: str) -> type[Any]:
         """Return the class of a message, service or action.

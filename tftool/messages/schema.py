@@ -130,7 +130,7 @@ class Schema:
             texts: Text of each definition, by kind ("msg", "srv", "action") and name.
         """
         self._texts[package] = dict(texts)
-        for full in [full for full in self._read if full.startswith(f"{package}/")]:
+        for full in [full for full in list(self._read) if full.startswith(f"{package}/")]:
             del self._read[full]
 
     def define(self, full: str, text: str) -> bool:
