@@ -436,6 +436,8 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
                 "lookups among the robot's own data work; a node on the recorder's computer that "
                 "asks for its present time gets another moment"
             )
+        elif len(heards) < len(streams) and abs(ahead) > model.settings.cache_time:
+            so = "no lookup across the two clocks can succeed"
         yield Hit(
             edges=tuple(one.edge for one in streams if isinstance(one, Track)),
             topics=tuple(dict.fromkeys(heard.topic for heard in heards)),
