@@ -88,8 +88,9 @@ def start_program(
 ) -> None:
     """Start a Python file, or an executable of a package, as a program of a world.
 
-    `on_exit` is called when a user's program has ended. Without a name, program and node have the
-    name of the file or the executable; `--ros-args` may name the node.
+    `on_exit` is called when a user's program has ended. If `name` is empty, the program and its
+    node have the name of the file or the executable. An option `__node:=` after `--ros-args`
+    renames the node.
     """
     found_program.options.name = found_program.options.name or name or None
     executables.start(

@@ -65,8 +65,8 @@ def load(
 
     Raises:
         InputError: If the file cannot be read; a `ScenarioError` lists every mistake in the file.
-        UsageError: If an argument is given that the scenario does not declare, or with a value
-            that does not fit.
+        UsageError: If the scenario does not declare an argument that is given, or the value of
+            an argument does not fit.
     """
     expects = expects or not builtin.is_shipped(Path(path))
     return parse(text_of(path), str(path), arguments, expects=expects)
@@ -102,7 +102,7 @@ def parse(
 
 
 def _is_readable(text: str, name: str, *, expects: bool) -> bool:
-    """Return whether a scenario can be read with the values that its arguments have in the file."""
+    """Return whether a scenario can be read with the default values of its arguments."""
     try:
         parse(text, name, expects=expects)
     except ScenarioError:

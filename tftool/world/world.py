@@ -517,7 +517,10 @@ class World:
         return accepted
 
     def static_transforms(self, authority: str | None = None) -> tuple[TransformStamped, ...]:
-        """Return the static transforms of one sender in this process (None: of all processes)."""
+        """Return the static transforms of one sender in this process.
+
+        If `authority` is None, return the static transforms of all senders in all processes.
+        """
         if authority is not None:
             return tuple(self._statics.get(authority, {}).values())
         held = [self._far_statics, *self._statics.values()]

@@ -324,7 +324,7 @@ class FoundExecutable:
 
 
 def find(workspace: Workspace, package: str | None, executable: str) -> FoundExecutable:
-    """Find an executable, and compile it if it is a file.
+    """Find an executable; if the executable is a Python file, also compile the file.
 
     Args:
         workspace: Workspace of users' packages, searched first.

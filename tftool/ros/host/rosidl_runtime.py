@@ -58,7 +58,7 @@ KINDS = {"msg": "Messages", "srv": "Services", "action": "Actions"}
 def interfaces(package: str | None = None, kinds: Sequence[str] = tuple(KINDS)) -> list[str]:
     """Return the full names of the interfaces of the given kinds.
 
-    If `package` is None, return those of all packages.
+    If `package` is None, return the interfaces of all packages.
 
     Raises:
         UsageError: If there is no such package; the text names a similar one.

@@ -172,9 +172,9 @@ class CommandRunner:
     ) -> int:
         """Run a command until it ends; return its exit status.
 
-        `on_start` gets the process, to interrupt it; it is not called for a short command that ends
-        while simulated time is stopped. `on_line` gets each line of output, and whether it comes
-        from standard output.
+        `on_start` is called with the process, so that the caller can interrupt the process. For a
+        short command that ends while simulated time is stopped, `on_start` is not called. `on_line`
+        is called with each line of output, and with True for a line of standard output.
 
         Raises:
             UsageError: If the command cannot be started.

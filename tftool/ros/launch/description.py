@@ -41,7 +41,10 @@ class LaunchDescriptionEntity:
 
 
 class LaunchDescription(LaunchDescriptionEntity):
-    """List of the actions of a launch; with a `deprecated_reason`, one that is deprecated."""
+    """List of the actions of a launch.
+
+    The description is deprecated if `deprecated_reason` is not None.
+    """
 
     def __init__(
         self, initial_entities: Iterable[Any] | None = None, *, deprecated_reason: str | None = None

@@ -162,7 +162,8 @@ def ready_to_test_action_timeout(timeout: float) -> Callable[[Any], Any]:
 def parametrize(argnames: str, argvalues: Iterable[Any]) -> Callable[[Any], Any]:
     """Return a decorator that runs a launch and its tests once for each set of values.
 
-    The names are separated by commas; each launch has a value or a tuple of values.
+    `argnames` contains the names of the parameters, separated by commas. `argvalues` contains a
+    value, or a tuple of values, for each launch.
     """
     names = [name.strip() for name in argnames.split(",") if name.strip()]
     sets = [value if isinstance(value, tuple) else (value,) for value in argvalues]

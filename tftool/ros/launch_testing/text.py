@@ -121,8 +121,8 @@ def expect_output(
 ) -> bool:
     """Return whether an output contains the expected texts or patterns.
 
-    Give the output as a text or as lines. For the expected texts or lines, and for `strict`, see
-    `build_text_match` and `build_line_match`.
+    The output is given as a text or as lines. For the expected texts or lines, and for `strict`,
+    see `build_text_match` and `build_line_match`.
 
     Raises:
         ValueError: Unless exactly one of `text` and `lines`, and exactly one of `expected_text` and

@@ -272,7 +272,7 @@ class Subscription(TopicEnd):
 
 
 class RosoutPublisher(Publisher):
-    """Publisher on /rosout of the messages of a node's logger, whose name is `logger`."""
+    """Publisher of a node's log messages on /rosout; `logger` is the name of the node's logger."""
 
     logger: str
 

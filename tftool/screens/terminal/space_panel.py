@@ -1,4 +1,7 @@
-"""Panel that shows frames in 3-D, orbited with keys and mouse, and pictures of a scene for it."""
+"""Panel that shows frames in 3-D, and functions that make 3-D pictures of a scene.
+
+Keys and the mouse orbit the panel's camera.
+"""
 
 import math
 from collections.abc import Callable, Mapping

@@ -164,7 +164,7 @@ def joined_session(
 
 
 def session_name(link: "Link", place: str) -> str:
-    """Return a session's name for messages: its host's name, else that of a node, else `place`."""
+    """Return a session's name for messages: the host's name, else a node's name, else `place`."""
     if link.options.reach.only_reads:
         return visible(place)
     processes = link.graph.processes()

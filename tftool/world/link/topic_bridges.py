@@ -377,8 +377,8 @@ class ClockFollower:
         """Follow `/clock` as soon as another process publishes this topic.
 
         Args:
-            world: World whose connection receives `/clock`. Its clock is set if it is a
-                `FollowedClock`.
+            world: World whose connection receives `/clock`. If the world's clock is a
+                `FollowedClock`, the messages set the clock.
         """
         self._world = world
         self._clock = world.clock if isinstance(world.clock, FollowedClock) else None

@@ -317,8 +317,8 @@ class MovingRobot(RobotStatePublisher):
             cycle: Nanoseconds in which the first joint goes to both limits and back. Each
                 further joint takes a little longer, so that no two joints move alike.
             period: Nanoseconds between two joint states.
-            frame_prefix: Prefix of every frame's name. It is the namespace of the topics, too, so
-                that the joint states of one robot do not move another robot.
+            frame_prefix: Prefix of every frame's name, and namespace of the topics, so that the
+                joint states of one robot do not move another robot.
 
         Raises:
             UsageError: If a joint is unknown, or a recording is missing or not needed.

@@ -151,7 +151,7 @@ def _checked(place: str) -> str:
     """Return an interface's name or an IP address unchanged, and a machine's name as its address.
 
     Raises:
-        LinkError: If the text is no interface's name, and no address is found for it.
+        LinkError: If `place` is neither an interface nor a machine whose address is found.
     """
     if place in _interfaces():
         return place

@@ -208,7 +208,7 @@ _NAMED = (b"\x0fsequence_number", b"\x10source_timestamp", b"\x0asource_gid")
 
 
 def parse_attachment(raw: bytes) -> Attachment:
-    """Parse an attachment of `rmw_zenoh`, in its present format or that of early Jazzy releases.
+    """Parse an attachment of `rmw_zenoh`, in the present format or that of early Jazzy releases.
 
     Raises:
         MalformedMessage: If the bytes have another format.
