@@ -82,7 +82,7 @@ def test_a_name_that_is_none_is_explained_too(tftool):
     ("words", "status", "told"),
     [
         (["a", "b", "turtles", "--message", "/scan@4", "--at", "4"], 2, "leave out --at"),
-        (["a", "b", "turtles", "--message", "/scan@x"], 2, "'x' is not a moment"),
+        (["a", "b", "turtles", "--message", "/scan@x"], 2, "'x' is not a time"),
         (["a", "b", "turtles", "--message", "/scan"], 3, "No message with a header"),
         (["a", "b", "nothing.mcap"], 3, "There is no file"),
     ],

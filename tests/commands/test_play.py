@@ -47,7 +47,7 @@ def test_over_and_over_it_tells_of_every_jump_back(tftool, simulated, run):
         (["--restamp", "yesterday"], "yesterday"),
         (["--read-only"], "--read-only publishes nothing"),
         (["--join"], "which cannot be joined"),
-        (["--from", "soon"], "'soon' is not a moment"),
+        (["--from", "soon"], "'soon' is not a time"),
     ],
 )
 def test_what_cannot_be_played_is_a_sentence(tftool, simulated, run, words, sentence):

@@ -159,7 +159,7 @@ def moment(text: str) -> At:
         found, exact = _nanoseconds(text)
     except ValueError:
         raise typer.BadParameter(
-            f"'{text}' is not a moment: give seconds since the start, such as 12.5, or a stamp, "
+            f"'{text}' is not a time: give seconds since the start, such as 12.5, or a stamp, "
             "such as 1663952504.7 or 2022-09-23T17:01:44.7Z."
         ) from None
     return At(found, exact >= FIRST_STAMP * NANOSECONDS and not text.startswith("+"))
