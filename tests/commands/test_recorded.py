@@ -235,11 +235,14 @@ def test_info_breaks_sentences_between_words_at_the_width_of_the_terminal(run):
             assert told == whole[: whole.index("Topics")]
 
 
-def test_info_of_a_scenario_says_what_plays_it(tftool):
-    result = tftool("info", "turtles")
+def test_info_of_a_scenario_says_what_plays_it(tftool, tmp_path):
+    own = tmp_path / "own.yaml"
+    own.write_text("duration: 1 s\nnodes: []\n")
+    for scenario in ("turtles", own):
+        result = tftool("info", scenario)
 
-    assert result.status == 2
-    assert "tftool check turtles" in result.err
+        assert result.status == 2
+        assert f"tftool check {scenario}" in result.err
 
 
 def test_echo_prints_the_whole_span_at_a_rate(tftool, run):

@@ -17,6 +17,8 @@ def test_a_robot_is_published_without_a_screen(tftool, simulated, robot):
     assert (
         result.out == "Publishing robot 'post': 3 links, 1 moving joint, positions from --joint.\n"
     )
+    resting = tftool("robot", robot, "--no-screen", "--for", "2")
+    assert resting.out.endswith("1 moving joint, positions at rest.\n")
 
 
 @pytest.mark.parametrize(

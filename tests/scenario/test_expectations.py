@@ -36,6 +36,21 @@ def test_a_loop_is_one_tree():
     assert outcome.ok
 
 
+def test_the_lines_of_an_error_about_a_loop_are_one_line():
+    text = (
+        "duration: 2 s\nnodes: []\nscript:\n"
+        "  - {at: 1 s, broadcast: {parent: a, child: b}}\n"
+        "  - {at: 1 s, broadcast: {parent: b, child: a}}\n"
+        "  - {at: 1 s, broadcast: {parent: c, child: d}}\n"
+        "expect: [{at: 2 s, lookup: {target: d, source: b}}]\n"
+    )
+    (outcome,) = run_scenario(parse(text, "s.yaml")).outcomes
+
+    assert "contains a loop. Frame " in outcome.found
+    assert "Frame b exists with parent a. Frame " in outcome.found
+    assert "\n" not in outcome.found
+
+
 @pytest.mark.parametrize(
     "expectation",
     [
@@ -132,7 +147,7 @@ def test_what_is_true_holds(expectation):
             "{at: 3 s, lookup: {target: map, source: post, time: now - 1 s}, value: {x: 1, yaw: 0},"
             " tolerance: {angle: 1 mrad}}",
             "at 3 s: post in map (now - 1 s) is x 1, yaw 0 (± 0.001 rad)",
-            "x 3, y 4, z 0, rotation (0, 0, 0.707107, 0.707107)",
+            "x 3, y 4, z 0, roll 0, pitch 0, yaw 1.5708",
             3,
         ),
         (

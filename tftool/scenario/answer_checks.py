@@ -14,7 +14,7 @@ from typing import Any, TypeAlias
 from tftool.base import errors
 from tftool.base.errors import LookupException, TransformException
 from tftool.base.plain_text import near_names, visible
-from tftool.geometry.conversions import quaternion_from_rpy
+from tftool.geometry.conversions import quaternion_from_rpy, rpy_from_quaternion
 from tftool.geometry.quaternions import angle_between
 from tftool.geometry.rigid import Quaternion, Transform, wrap
 from tftool.scenario import document
@@ -41,6 +41,11 @@ def _frame_hint(error: TransformException) -> str:
     return remedy if "did you mean" in remedy else ""
 
 
+def _in_one_line(error: TransformException) -> str:
+    """Return an error's text; tf2's text about a loop has a line for each frame."""
+    return " ".join(line for line in str(error).split("\n") if line)
+
+
 class AnswerCheck(ABC):
     """Base of checks of an answer; `str(check)` describes the expected answer."""
 
@@ -52,7 +57,8 @@ class AnswerCheck(ABC):
         """Return the check's result for a question that failed with the exception `error`."""
         # Some of tf2's error texts end in ". ", others without it.
         hint = _frame_hint(error)
-        said = f"{str(error).rstrip(' .')}. {hint}" if hint else str(error)
+        text = _in_one_line(error)
+        said = f"{text.rstrip(' .')}. {hint}" if hint else text
         return Judged(False, f"{type(error).__name__}: {said}")
 
     @abstractmethod
@@ -355,7 +361,7 @@ class RefusalCheck(AnswerCheck):
         """Compare the lookup's exception with the expected exception."""
         ok = isinstance(error, getattr(errors, self.raises))
         ok = ok and (self.says is None or self.says in str(error))
-        return Judged(ok, f"{type(error).__name__}: {error}")
+        return Judged(ok, f"{type(error).__name__}: {_in_one_line(error)}")
 
     def __str__(self) -> str:
         says = f" that says '{self.says}'" if self.says else ""
@@ -367,19 +373,28 @@ _ANGLES = ("theta", "angular")
 
 @dataclass(frozen=True, slots=True)
 class PoseCheck(AnswerCheck):
-    """Check of the given parts of a pose, such as x or yaw; parts not given are not checked."""
+    """Check of the given parts of a pose, such as x or yaw; parts not given are not checked.
+
+    Attributes:
+        wanted: Expected numbers, by the name of the part.
+        tolerance: Largest differences.
+        rotation: Expected rotation; None for any.
+        rotation_words: The expected rotation as text.
+        in_angles: Whether the rotation is expected, and shown, as roll, pitch and yaw.
+    """
 
     wanted: Mapping[str, float]
     tolerance: Tolerance
     rotation: Quaternion | None = None
     rotation_words: str = ""
+    in_angles: bool = False
 
     def judge(self, answer: Transform) -> Judged:
         """Compare a pose with the expected parts."""
         ok = self._fits(answer.translation._asdict())
         if self.rotation is not None:
             ok = ok and angle_between(self.rotation, answer.rotation) <= self.tolerance.angle
-        return Judged(ok, _pose_text(answer))
+        return Judged(ok, _pose_text(answer, in_angles=self.in_angles))
 
     def _fits(self, have: Mapping[str, float]) -> bool:
         off = {key: abs(have[key] - want) for key, want in self.wanted.items()}
@@ -401,10 +416,14 @@ class PoseCheck(AnswerCheck):
         return f"is {', '.join(parts)}{self.tolerance.words(position=moved, angle=turned)}"
 
 
-def _pose_text(pose: Transform) -> str:
+def _pose_text(pose: Transform, *, in_angles: bool = False) -> str:
     x, y, z = pose.translation
-    qx, qy, qz, qw = pose.rotation
     where = f"x {x:.6g}, y {y:.6g}, z {z:.6g}"
+    if in_angles:
+        # Adding 0.0 makes 0 of -0.
+        roll, pitch, yaw = (angle + 0.0 for angle in rpy_from_quaternion(pose.rotation))
+        return f"{where}, roll {roll:.6g}, pitch {pitch:.6g}, yaw {yaw:.6g}"
+    qx, qy, qz, qw = pose.rotation
     return f"{where}, rotation ({qx:.6g}, {qy:.6g}, {qz:.6g}, {qw:.6g})"
 
 
@@ -441,7 +460,8 @@ def _pose_check(given: Mapping[str, Any], reading: Reading, place: TextPlace) ->
     place, parts = value
     rotation, words = _rotation(parts, reading, place)
     wanted = {key: parts[key] for key in ("x", "y", "z") if parts[key] is not None}
-    return PoseCheck(wanted, given["tolerance"] or Tolerance(), rotation, words)
+    in_angles = rotation is not None and parts["rotation"] is None
+    return PoseCheck(wanted, given["tolerance"] or Tolerance(), rotation, words, in_angles)
 
 
 POSE_FORM = Form(

@@ -98,11 +98,10 @@ def _show(connection: Connection, path: str, name: str, *, for_programs: bool) -
         return _show_robot(connection, found.paths[0], name, for_programs=for_programs)
     word = visible(name)
     if found.kind is Kind.SCENARIO:
-        sentence = (
+        raise UsageError(
             f"'{word}' is a scenario, not a recording or robot description: 'tftool check {word}' "
             f"plays the scenario, 'tftool tree {word}' shows the frames."
         )
-        raise InputError(sentence) if Path(path).is_file() else UsageError(sentence)
     if not found.kind.is_recording:
         raise UsageError(
             f"'{word}' is a {found.kind.value}, not a recording: 'tftool tree {word}' shows its "

@@ -50,12 +50,14 @@ def _no_link(described: Robot, link: str) -> str:
     return f"robot '{described.name}' has no link '{link}'{hint}"
 
 
-def _tell(described: Robot, follow: bool) -> None:
+def _tell(described: Robot, follow: bool, is_given: bool) -> None:
     moving = sum(joint.moves for joint in described.joints.values())
-    given = "/joint_states of other nodes" if follow else "--joint"
+    given = "from --joint" if is_given else "at rest"
+    if follow:
+        given = "from /joint_states of other nodes"
     sys.stdout.write(
         f"Publishing robot '{visible(described.name)}': {count(len(described.links), 'link')}, "
-        f"{count(moving, 'moving joint')}, positions from {given}.\n"
+        f"{count(moving, 'moving joint')}, positions {given}.\n"
     )
     sys.stdout.flush()
 
@@ -187,7 +189,7 @@ def run(connection: Connection, options: RobotOptions) -> ExitStatus:
         )
     )
     if options.no_screen:
-        _tell(described, options.follow)
+        _tell(described, options.follow, bool(connection.robot.joints))
         session.run(session.lasting(options.run_for))
         return ExitStatus.DONE
 
