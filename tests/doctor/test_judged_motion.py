@@ -2,11 +2,11 @@
 
 import pytest
 
-from tests.doctor.judged import found, ids
+from tests.doctor.judged import found, ids, turned
 from tests.doctor.robots import NO_TURN, Robot
 
 
-def held_up(parent: str, *, moves: bool) -> Robot:
+def held_up(parent: str, *, moves: bool, turns: float = 0.0) -> Robot:
     """Return a body at 100 Hz that rests, moves by 2 m during a stall of 1.7 s, and rests.
 
     Pauses of 0.12 s before the stall are many. The first pose after the stall is an old one.
@@ -20,7 +20,8 @@ def held_up(parent: str, *, moves: bool) -> Robot:
         if tick == 400:
             at += 1.69
         away = (0.0 if tick < 400 else 0.6 if tick == 400 else 2.0) * moves
-        made.sent(parent, "car", at, (away + 1e-4 * (tick % 3), 0.0, 0.0, *NO_TURN))
+        turn = turned(turns * (tick > 400))
+        made.sent(parent, "car", at, (away + 1e-4 * (tick % 3), 0.0, 0.0, *turn))
     return made
 
 
@@ -33,6 +34,10 @@ def test_a_body_that_moved_while_its_poses_were_held_up_has_a_gap_and_no_jump(pa
     assert ids(made) == told
     if told:
         assert found(made, "gap").facts["length"] == pytest.approx(1.7e9, rel=0.01)
+
+
+def test_a_body_that_flips_after_its_poses_were_held_up_jumps():
+    assert "teleport" in ids(held_up("world", moves=True, turns=3.1))
 
 
 def fleet(names: tuple[str, ...], *, ahead: str = "") -> Robot:

@@ -24,15 +24,15 @@ check = checks_of(Area.VALUES)
     Severity.WARNING,
     rule="a step is above {metres:g} m at more than {speed:g} m/s (or above {radians:g} rad at "
     "more than {turning:g} rad/s), and its speed is {times:g} times the 95 % quantile of all "
-    "speeds. Such steps are at most a share of {share:g} of all steps ({triggered:g} if each "
-    "step comes within 50 ms after a position message) or at most {few:g} steps, among {samples:g} "
-    "samples or more of one publisher. A note for a part of a robot if no sensor message is "
-    "in its frame, and for one of three or more objects of one publisher that come and go. A "
-    "localiser is reported for {corrections:g} steps or more that move the "
-    "robot by {corrected:g} m, not counting the step to an initial pose. An object that a "
-    "camera detects is reported for {corrections:g} steps or more of {detected:g} m and 2 m/s "
-    "within 1 s. Not reported in a world frame for a step less than 1 s after a gap of 0.2 s and 8 "
-    "periods or more, if its speed is below {speed:g} m/s from the last pose before the gap",
+    "speeds. Such steps are at most a share of {share:g} of all steps ({triggered:g} if each step "
+    "comes within 50 ms after a position message) or at most {few:g} steps, among {samples:g} "
+    "samples or more of one publisher. A note for a part of a robot if no sensor message is in its "
+    "frame, and for one of three or more objects of one publisher that come and go. A localiser is "
+    "reported for {corrections:g} steps or more that move the robot by {corrected:g} m, not "
+    "counting the step to an initial pose. An object that a camera detects is reported for "
+    "{corrections:g} steps or more of {detected:g} m and 2 m/s within 1 s. Not reported in a world "
+    "frame for a step less than 1 s after a gap of 0.2 s and 8 periods or more, if its speed is "
+    "below {speed:g} m/s from the last pose before the gap, and its turn is no jump",
     headline="{named}",
     detail="{edge}: {jump:m} and {turn:deg} at {at:moment}, {count:times}{others}{usual}{after}",
     consequence="things placed before and after the jump do not fit together{also}",
@@ -117,7 +117,7 @@ def _jump(model: Model, track: Track, places: Places, limits: Limits) -> Hit | N
         ends = [end - 1 for run in outliers(track, OUTLIER) for end in run]
         jumps = np.setdiff1d(jumps, ends)
         if is_world(track.parent) and not track.is_odometry:
-            kept = [not _ends_gap(track, jump, limits) for jump in jumps.tolist()]
+            kept = [spun[jump] or not _ends_gap(track, jump, limits) for jump in jumps.tolist()]
             jumps = jumps[np.array(kept, dtype=np.bool_)]
     topic, after = _trigger(model, track.logs[others[jumps]])
     share = limits["triggered"] if topic else limits["share"]
@@ -187,9 +187,7 @@ def _ends_gap(track: Track, jump: int, limits: Limits) -> bool:
     gaps = np.flatnonzero((steps >= least) & (stamps[jump] - stamps[1:after] < NANOSECONDS))
     before, here = track.by_stamp[gaps], np.full(len(gaps), track.by_stamp[after])
     since = (stamps[after] - stamps[gaps]) / NANOSECONDS
-    possible = track.apart(before, here) < limits["speed"] * since
-    possible &= track.turned(before, here) < limits["turning"] * since
-    return bool(possible.any())
+    return bool((track.apart(before, here) < limits["speed"] * since).any())
 
 
 _HELD_UP = seconds(0.2)

@@ -94,7 +94,7 @@ class Shift:
         by: Time from stamp to reception of most messages, nanoseconds; negative if the stamps are
             later than reception.
         spread: Median variation (10 % to 90 % quantile) of this time in a stream, nanoseconds; up
-            to the median if all streams are later than reception, because of delays in bursts.
+            to the median if all streams are later than reception and wait for more than a second.
         streams: Number of streams (edges and topics) with this shift.
         of: Number of all compared streams.
     """
@@ -591,7 +591,8 @@ class Model:
         alike = [spread for one, spread in zip(late, spreads, strict=True) if abs(one - by) < near]
         # Bursts delay stamps, but do not set those of all streams after reception.
         is_ahead = by < 0 and len(alike) == len(late) > 2
-        spread = sorted(one[is_ahead] for one in alike)[len(alike) // 2]
+        spread, half = (sorted(ones)[len(alike) // 2] for ones in zip(*alike, strict=True))
+        spread = half if is_ahead and spread > LAP else spread
         if 2 * len(alike) <= len(late) or spread > LAP:
             return
         prompt = [s for one, s in zip(late, kept, strict=True) if abs(one) < LAP]
