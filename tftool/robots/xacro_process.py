@@ -89,10 +89,10 @@ def _main(path: str, arguments: str) -> None:
     # Discard output of the file's expressions: stdout is for the result only.
     with os.fdopen(os.dup(1), "w", encoding="utf-8") as answer:
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
-        json.dump(_expanded(path, _Arguments(json.loads(arguments))), answer)
+        json.dump(_expanded(path, _XacroArguments(json.loads(arguments))), answer)
 
 
-class _Arguments(dict[str, str]):
+class _XacroArguments(dict[str, str]):
     """Values of xacro arguments, with the names that the file declares or uses."""
 
     def __init__(self, values: Mapping[str, str]) -> None:
@@ -109,7 +109,7 @@ class _Arguments(dict[str, str]):
         return super().__getitem__(name)
 
 
-def _expanded(path: str, arguments: _Arguments) -> dict[str, Any]:
+def _expanded(path: str, arguments: _XacroArguments) -> dict[str, Any]:
     from xacrodoc import XacroDoc, packages, xacrodoc
 
     installed = packages.get_path
