@@ -277,7 +277,7 @@ def test_a_wrong_limit_of_memory_is_no_fault_of_the_scenario(tftool, monkeypatch
     )
 
 
-def test_two_static_parents_stand_beside_the_frame(tftool, tmp_path):
+def test_two_static_parents_stand_beside_the_frame(tftool, simulated, monkeypatch, tmp_path):
     played = tmp_path / "cam.yaml"
     played.write_text(
         "duration: 1 s\nnodes:\n"
@@ -291,6 +291,9 @@ def test_two_static_parents_stand_beside_the_frame(tftool, tmp_path):
     recorded = write_mcap(tmp_path / "run.mcap", sent)
 
     assert "cam (two-parents)" in tftool("tree", played).out
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    assert "two-parents" in tftool("tree", played, "--watch", "--for", "1").out
+    monkeypatch.delenv("FORCE_COLOR")
     result = tftool("tree", recorded)
     assert "cam (two-parents)" in result.out
     assert (

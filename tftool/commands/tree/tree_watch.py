@@ -28,7 +28,8 @@ def watch_with_keys(session: Session, options: TreeOptions) -> None:
     """Show the tree on a full screen until q is pressed or the duration is over."""
     world = session.world
     setting = screen_setting(options, "tftool tree")
-    app = TreeWatch(world, lambda snapshot: marks(world.buffer, snapshot), setting)
+    statics = _static_edges(world)
+    app = TreeWatch(world, lambda snapshot: marks(world.buffer, snapshot, statics), setting)
 
     def tell(record: LogRecord) -> None:
         if is_news(record):
@@ -54,6 +55,17 @@ def show_changes(connection: Connection, options: TreeOptions) -> None:
         watch_with_keys(session, options)
 
 
+def _static_edges(world: World) -> set[tuple[str, str]]:
+    """Return parent and child of each static transform; the set grows while the world runs."""
+    found = {(one.frame_id, one.child_frame_id) for one in world.static_transforms()}
+    world.tf_static.subscribe(
+        lambda message: found.update(
+            (one.frame_id, one.child_frame_id) for one in message.transforms
+        )
+    )
+    return found
+
+
 async def _redrawn(world: World, options: TreeOptions, console: Console) -> None:
     """Redraw the tree periodically in the event loop.
 
@@ -68,6 +80,7 @@ async def _redrawn(world: World, options: TreeOptions, console: Console) -> None
 
     world.log.listen(tell, "console")
     world.clock.when_killed.add(leave_screen, "screen")
+    statics = _static_edges(world)
     with Live(console=console, auto_refresh=False, screen=True) as live:
         pace = pace_of(world.clock)
         due = pace.now()
@@ -75,7 +88,8 @@ async def _redrawn(world: World, options: TreeOptions, console: Console) -> None
         pace.limit(end)
         while end is None or due <= end:
             snapshot = world.buffer.snapshot(world.clock.now())
-            picture = fitting(snapshot, None, marks(world.buffer, snapshot), console, options)
+            found = marks(world.buffer, snapshot, statics)
+            picture = fitting(snapshot, None, found, console, options)
             live.update(Group(*picture, news), refresh=True)
             due = max(due + seconds(0.5), pace.now())
             await pace.sleep_until(due, Phase.WATCH)
