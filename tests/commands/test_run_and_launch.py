@@ -293,6 +293,20 @@ def test_an_endless_loop_is_named_by_node_and_line(tmp_path, capsys, monkeypatch
     assert "run it without --simulated" in said
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="the C library has another name")
+def test_a_library_may_load_slowly_on_simulated_time(tmp_path, capsys, monkeypatch):
+    from tftool.ros.host import fibers
+
+    monkeypatch.setattr(fibers, "PATIENCE", 0.5)
+    monkeypatch.setattr(fibers, "GIVE_UP", 2.0)
+    (tmp_path / "library.py").write_text("import ctypes\nctypes.CDLL(None).sleep(3)\n")
+    file = tmp_path / "slow.py"
+    file.write_text("import library\n" + NODE + "print('loaded')\n")
+
+    assert main(["run", *SIMULATED, str(file)]) == 0
+    assert capsys.readouterr().out == "loaded\n"
+
+
 @pytest.mark.parametrize("swallows", [False, True])
 def test_a_busy_program_that_the_end_of_for_breaks_off_is_named_and_fails(
     tmp_path, capsys, swallows

@@ -27,8 +27,11 @@ if sys.platform != "win32":
 PATIENCE: Final = 2.0
 """Real seconds that a node may take to end after it was cancelled."""
 
-STANDSTILL: Final = 20.0
-"""Real seconds for which a node may block simulated time, if the run ends at a simulated time."""
+STANDSTILL: Final = 70.0
+"""Real seconds for which a node may block simulated time, if the run ends at a simulated time.
+
+More than the time that a user's program may take for an import.
+"""
 
 INTERRUPTED: Final = 130
 FAILED: Final = 1

@@ -32,6 +32,9 @@ PATIENCE = 2.0
 GIVE_UP = 10.0
 """Real seconds for which simulated time waits for a busy fiber before the fiber is stopped."""
 
+GIVE_UP_IMPORT = 60.0
+"""`GIVE_UP` for code that imports a module, as large libraries load slowly on a busy machine."""
+
 GRACE = 0.25
 """Real seconds that a busy fiber may continue after a signal before the fiber is interrupted."""
 
@@ -122,6 +125,7 @@ class Fiber:
         error: Exception that ended the code; None if there was none. A StuckError means that tftool
             stopped code that was still running at the end of the run.
         ended: Whether the code has ended.
+        imports: Number of imports of the user's code that are under way, one inside the other.
         owner: Program that the fiber belongs to.
         end: Function that returns the exception which waits of an interrupted fiber raise.
         on_interrupt: Function called once in the fiber's thread, just before the first
@@ -156,6 +160,7 @@ class Fiber:
         self.interrupted = self.is_told = False
         self.error: BaseException | None = None
         self.ended = False
+        self.imports = 0
         self.owner: Any = None
         self._strict = strict
         self._on_busy = on_busy
@@ -352,6 +357,8 @@ class Fiber:
         if not self._clock.interrupted:
             self._say_busy()
             if self._pauses_within(max(0.0, self._give_up - self._patience)):
+                return
+            if self.imports and self._pauses_within(GIVE_UP_IMPORT - self._give_up):
                 return
         if self._clock.interrupted:
             self._end_now()

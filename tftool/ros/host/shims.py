@@ -277,11 +277,20 @@ def _import(
         import multiprocessing
 
         return _Shim(multiprocessing, {"Process": process_class()})
-    owner = running_program()
-    if owner is not None and owner.strict and not (level == 0 and _is_imported(name, fromlist)):
-        with IMPORTING:
+    owner, fiber = running_program(), current()
+    if (
+        fiber is None
+        or owner is None
+        or not owner.strict
+        or (level == 0 and _is_imported(name, fromlist))
+    ):
+        return builtins.__import__(name, globals, locals, fromlist, level)
+    with IMPORTING:
+        fiber.imports += 1
+        try:
             return builtins.__import__(name, globals, locals, fromlist, level)
-    return builtins.__import__(name, globals, locals, fromlist, level)
+        finally:
+            fiber.imports -= 1
 
 
 BUILTINS_FOR_USERS = {**vars(builtins), "__import__": _import, "print": _print}
