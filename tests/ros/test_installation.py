@@ -118,7 +118,7 @@ def test_run_and_launch_say_in_one_line_what_ros_would_not_find(
     result = tftool(command, "--simulated", "--for", "0.1", *rest)
 
     assert "ROS 2" not in whole.err
-    lines = [line for line in result.err.splitlines() if "ROS 2 would not find it" in line]
+    lines = [line for line in result.err.splitlines() if "ROS 2 would not find " in line]
     assert [told in line for line in lines] == [True]
     assert lines[0].endswith("'tftool check --as-ros chase' lists all")
 

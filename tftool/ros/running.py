@@ -113,8 +113,9 @@ def reason_not_found(workspace: Workspace, file: Path) -> str:
         if file.is_relative_to(package.path):
             faults = faults_about(package, file, workspace.packages)
             more = f" (and {len(faults) - 1} more)" if len(faults) > 1 else ""
-            told = f"ROS 2 would not find it: {faults[0]}{more}" if faults else ""
-            return f"{told}; 'tftool check --as-ros {name}' lists all" if told else ""
+            told = f"ROS 2 would not find {file.name} or a part that it needs: "
+            lists = f"; 'tftool check --as-ros {name}' lists all"
+            return told + faults[0] + more + lists if faults else ""
     return ""
 
 
