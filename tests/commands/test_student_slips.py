@@ -169,7 +169,7 @@ def said(result, text):
 
 
 def test_a_broadcaster_that_never_sends_is_named_after_five_seconds(tftool, slip):
-    silent = "its TransformBroadcaster has sent nothing for 5 s: call sendTransform in"
+    silent = "this node's TransformBroadcaster has sent nothing for 5 s: call sendTransform in"
     file = slip(begin="self.fixed_sent = self.send('map', 'base', self.fixed)")
 
     early = tftool("run", "--simulated", "--for", "4", file)

@@ -639,7 +639,7 @@ def test_two_simulators_of_one_namespace_both_move_and_the_second_names_the_reme
     said = log_texts(world, "sim_2")
     assert [text for text in said if "a namespace of its own" in text] == [
         f"'{first.name}' already provides the services of turtlesim here: give this simulator "
-        "a namespace of its own (-r __ns:=/sim2), or both share every topic"
+        "a namespace of its own (-r __ns:=/sim2), otherwise both simulators share every topic"
     ]
     placed = [sim.turtles["turtle1"].place for sim in (first, second)]
     assert placed[0] == placed[1]

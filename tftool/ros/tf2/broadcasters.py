@@ -182,8 +182,9 @@ class TransformBroadcaster:
             self._member.program.say(
                 "WARN",
                 self._member.authority,
-                f"its {kind} has sent nothing for {as_seconds(SILENT):g} s: call sendTransform in "
-                "the callback of a timer or a subscription, and check that this callback is called",
+                f"this node's {kind} has sent nothing for {as_seconds(SILENT):g} s: call "
+                "sendTransform in the callback of a timer or a subscription, and check that this "
+                "callback is called",
             )
 
     def sendTransform(self, transform: Any) -> None:  # noqa: N802

@@ -132,7 +132,8 @@ class Turtlesim(Node):
             # As in ROS 2, both turtles follow the same cmd_vel, and one of them has the services.
             self.warn(
                 f"'{there.node}' already provides the services of turtlesim here: give this "
-                "simulator a namespace of its own (-r __ns:=/sim2), or both share every topic"
+                "simulator a namespace of its own (-r __ns:=/sim2), otherwise both simulators "
+                "share every topic"
             )
         for service, handler, kind in (
             ("spawn", self._on_spawn, Spawn),
