@@ -190,7 +190,7 @@ def _example(group: "list[Track | Heard]", simulated: bool) -> int:
     "transforms and messages with a position agree with the recorder's clock to within 1 s, as "
     "those of another robot. A warning if the stamps are after the reception, because a recording "
     "that is played again cannot have such stamps",
-    headline="{most} stamps are {by:span} {side} their reception, constant to {spread:span}",
+    headline="{most} stamps are {by:span} {side} their reception, constant to {spread:span}{told}",
     detail="{streams} of {of} streams; latencies and the cache are judged against the clock of the "
     "stamps",
     consequence="none for lookups within the recording; {live}",
@@ -215,6 +215,9 @@ def shifted_clock(model: Model, limits: Limits) -> Iterator[Hit]:
             "by": abs(model.shift.by),
             "side": "before" if model.shift.by > 0 else "after",
             "spread": model.shift.spread,
+            "told": " in the half of the messages that waited least"
+            if model.shift.has_bursts
+            else "",
             "streams": model.shift.streams,
             "of": model.shift.of,
             "most": "most" if _has_unshifted(model, model.shift) else "all",

@@ -93,14 +93,16 @@ class Shift:
     Attributes:
         by: Time from stamp to reception of most messages, nanoseconds; negative if the stamps are
             later than reception.
-        spread: Median variation (10 % to 90 % quantile) of this time in a stream, nanoseconds; up
-            to the median if all streams are later than reception and wait for more than a second.
+        spread: Median variation of this time in a stream, nanoseconds: from its 10 % to its 90 %
+            quantile, or only to its median if `has_bursts`.
+        has_bursts: Whether many messages waited for more than a second.
         streams: Number of streams (edges and topics) with this shift.
         of: Number of all compared streams.
     """
 
     by: Duration
     spread: Duration
+    has_bursts: bool
     streams: int
     of: int
 
@@ -592,7 +594,8 @@ class Model:
         # Bursts delay stamps, but do not set those of all streams after reception.
         is_ahead = by < 0 and len(alike) == len(late) > 2
         spread, half = (sorted(ones)[len(alike) // 2] for ones in zip(*alike, strict=True))
-        spread = half if is_ahead and spread > LAP else spread
+        has_bursts = is_ahead and spread > LAP
+        spread = half if has_bursts else spread
         if 2 * len(alike) <= len(late) or spread > LAP:
             return
         prompt = [s for one, s in zip(late, kept, strict=True) if abs(one) < LAP]
@@ -612,7 +615,7 @@ class Model:
         if is_ros1(self.evidence) and others:
             # ROS 1 dates constants ahead: they tell the clock only if nothing else does.
             by = max(by, min(others))
-        self.shift = Shift(by, spread, len(alike), len(late))
+        self.shift = Shift(by, spread, has_bursts, len(alike), len(late))
         for stream in streams:
             is_wall = stream.stamps >= SIMULATED_BELOW
             stream.arrivals = np.where(is_wall, stream.logs - by, stream.logs)
