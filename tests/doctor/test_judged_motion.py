@@ -97,15 +97,15 @@ def test_wheels_of_a_driver_are_no_joint_states_of_a_description():
 
 def test_stamps_of_bursts_that_are_all_ahead_are_a_shifted_clock():
     made = Robot()
-    for tick in range(800):
-        # Every other second, all data waits for up to one second.
-        at = tick / 100
-        late = 1.0 - at % 1.0 if int(at) % 2 else 0.005
+    for tick in range(600):
+        # In the second half of each six seconds, all data waits until their end.
+        at = tick / 25
+        late = 6.0 - at % 6.0 if at % 6.0 >= 3.0 else 0.005
         for child in ("base_link", "arm"):
             pose = (0.1 * at, 0.0, 0.0, *NO_TURN)
-            made.sent("odom", child, at + 19.0, pose, latency=3.0 * late - 19.0)
+            made.sent("odom", child, at + 19.0, pose, latency=late - 19.0)
         made.heard.setdefault("/odom", ("nav_msgs/Odometry", []))[1].append(
-            (made.log(at + 19.0), made.log(at + 3.0 * late), "odom")
+            (made.log(at + 19.0), made.log(at + late), "odom")
         )
     shifted = found(made, "shifted-clock")
     assert shifted.facts["streams"] == 3
