@@ -84,7 +84,7 @@ def test_an_unknown_frame_is_refused_as_tf2_does(buffer):
 
 
 def test_a_span_without_a_moment_is_wrong_usage(buffer):
-    with pytest.raises(UsageError, match="No moment"):
+    with pytest.raises(UsageError, match="contains no time to look up"):
         sample(buffer, "map", "base", Moments(start=50 * SECOND))
 
 

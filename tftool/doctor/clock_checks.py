@@ -303,7 +303,7 @@ def _ahead(model: Model, track: Track, ahead: int) -> Hit:
 @check(
     "wild-stamp",
     Severity.WARNING,
-    rule="at most one stamp in a hundred of a stream, or a single stamp, differs by more than an "
+    rule="a few stamps of a stream (one in a hundred, but at least one) differ by more than an "
     "hour from the stamps of the messages before and after",
     headline="{where} {concerned:has|have} a stamp that lies {off:span} {side} the others",
     detail="{what}: {count} of {of}, {stamp:dated}",

@@ -544,8 +544,8 @@ def _is_robot(link: Track) -> bool:
     "cache-short",
     Severity.WARNING,
     rule="95 % of a topic's messages are older than the cache time (10 s, or --cache-time) when "
-    "they arrive. A delay of the transforms that place them is subtracted first. A note for "
-    "messages other than scans, point clouds and ranges",
+    "they arrive. The delay of the transforms that these messages need is subtracted first. The "
+    "finding is a note for messages other than scans, point clouds and ranges",
     headline="{topic} arrives later than the cache time",
     detail="{topic}: {late:span} after its stamp (median), {worst:span} at most; the buffer "
     "keeps {cache:span}",

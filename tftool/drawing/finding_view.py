@@ -40,7 +40,7 @@ _STYLES = {Severity.ERROR: "bold red", Severity.WARNING: "yellow", Severity.NOTE
 
 
 def render(diagnosis: Diagnosis, *, verbose: bool = False) -> RenderableType:
-    """Return the report about one source for a terminal: source, findings, areas, counts."""
+    """Format the report on one source for a terminal, with findings and counts."""
     parts: list[RenderableType] = [Text(visible(head(diagnosis.model)), "bold")]
     if diagnosis.model.reference:
         parts.append(Text(visible(f"latencies: {diagnosis.model.reference}")))

@@ -260,10 +260,12 @@ def _shades(corners: Floats, triangles: Indices, owners: Indices) -> Floats:
 
 
 def _edges(parts: Indices, depths: Floats) -> npt.NDArray[np.bool_]:
-    """Return a mask of the inner outlines: points behind a neighbour on another part.
+    """Return a mask of the points at which one part of the robot hides another part.
+
+    A point is masked if a neighbour on another part, or far from it in depth, is in front of it.
 
     Args:
-        parts: Index of the part at each point; -1 without a solid.
+        parts: Index of the part drawn at each point; -1 where no part is drawn.
         depths: Depth of each point.
     """
     edge = np.zeros(parts.shape, bool)

@@ -111,7 +111,9 @@ def sample(buffer: Buffer, target: str, source: str, moments: Moments | None = N
     asked, words = _asked(buffer, target, source, moments)
     path = buffer.lookup_transforms(target, source, asked, missing="nan")
     if not len(asked):
-        raise UsageError(f"No moment is in the requested time span: {words}. Choose a longer span.")
+        raise UsageError(
+            f"The requested time span contains no time to look up: {words}. Choose a longer span."
+        )
     if not path.valid.any():
         # Raises the error of the first failed lookup.
         buffer.lookup_transform(target, source, int(asked[0]))

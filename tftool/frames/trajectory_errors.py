@@ -218,7 +218,7 @@ def fitted(a: TransformArray, b: TransformArray, fit: Fit) -> tuple[TransformArr
     if singular[1] <= 1e-12 * max(singular[0], 1e-300):
         raise InputError(
             "All positions are on one line or in one point, so the rotation cannot be "
-            "determined: use --fit first, which needs only the first pose."
+            "determined: use '--fit first', which fits the first poses only."
         )
     signs = np.array([1.0, 1.0, np.sign(np.linalg.det(u) * np.linalg.det(v))])
     matrix = u @ np.diag(signs) @ v

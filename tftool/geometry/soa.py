@@ -51,9 +51,9 @@ def arcs(starts: Floats, ends: Floats) -> Arcs:
     """Compute the arcs between unit quaternions, shapes (n, 4), in any order of components.
 
     Source:
-        Shoemake, "Animating Rotation with Quaternion Curves", SIGGRAPH 1985. With the angle θ of
-        an arc and a fraction f of it, Shoemake's formula is divided by cos(fθ) here. The results
-        therefore do not have unit length, and are normalised after the last multiplication.
+        Shoemake, "Animating Rotation with Quaternion Curves", SIGGRAPH 1985. For the angle θ of an
+        arc and a fraction f of the arc, this code uses Shoemake's formula divided by cos(fθ). The
+        interpolated quaternions therefore do not have unit length; the caller normalises them.
     """
     ends = np.where(_dot(starts, ends) < 0.0, -ends, ends)
     apart = ends - starts

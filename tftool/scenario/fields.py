@@ -306,18 +306,18 @@ def tagged(
     common: Mapping[str, Key],
     beside: Mapping[str, Mapping[str, Key]],
 ) -> tuple[str, Any, dict[str, Any]]:
-    """Read a mapping in which one key names a class, and other keys are beside this key.
+    """Read a mapping with one key that names a class, and optional further keys.
 
     Args:
         node: The mapping.
         reading: Pass over the document.
         noun: Noun for messages, with its article, such as "an expectation".
         kinds: Class for each key that names a class.
-        common: Keys allowed next to the key of any class.
-        beside: Further keys allowed next to the key of one class, by the key of the class.
+        common: Further keys that are allowed with every class.
+        beside: For each key that names a class, the further keys allowed with this class only.
 
     Returns:
-        The key of the class, an object of the class, and the values of the other keys.
+        The key that names the class, an object of the class, and the values of the further keys.
     """
     entries = reading.entries(node, f"{listed(common)} and what {noun} is about")
     tag = _tag(node, reading, noun, kinds, common, beside)

@@ -259,10 +259,10 @@ class _ScenarioReader:
     def check_robots(
         self, nodes: Iterable[Node], items: Iterable[tuple[str, str, Any]], reading: Reading
     ) -> None:
-        """Report nodes that move the same robot, and nodes whose `base` is no robot's base.
+        """Check that one node moves each robot, and that `base` of a node names a robot's base.
 
         Raises:
-            Unreadable: If there is such a node.
+            Unreadable: If a node fails this check.
         """
         lines: dict[str, int] = {}
         observers: list[tuple[Node, str]] = []

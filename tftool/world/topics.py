@@ -282,10 +282,10 @@ class NamedOffers(Generic[T]):
     """
 
     def __init__(self, what: str, changed: Callable[[], object]) -> None:
-        """Create an empty store.
+        """Create an empty store of service servers or of action servers.
 
         Args:
-            what: Word for messages: "service" or "action".
+            what: "service" or "action", the word for error messages.
             changed: Function called when a server is added or removed.
         """
         self._what = what

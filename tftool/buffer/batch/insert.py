@@ -310,15 +310,18 @@ def merge(history: History, origin: int, stamps: Stamps, samples: Floats) -> Fla
     # Stable: samples with equal stamps keep the order of insertion.
     order = np.argsort(all_stamps, kind="stable")
     order = order[all_stamps[order] >= floor]
-    order = order[_first_of_their_kind(all_stamps, all_samples, all_origins & PARENT_MASK, order)]
+    order = order[_not_repeated(all_stamps, all_samples, all_origins & PARENT_MASK, order)]
     history.replace(_records(all_stamps[order], all_samples[order]), _words(all_origins[order]))
     return old
 
 
-def _first_of_their_kind(
+def _not_repeated(
     stamps: Stamps, samples: Floats, parents: npt.NDArray[np.int64], order: Indices
 ) -> Flags:
-    """Return a mask of the rows `order`: False for a row that repeats a row with the same stamp."""
+    """Return a mask of the rows with the numbers `order`: False for a repetition.
+
+    A row is a repetition if an earlier row has the same stamp, parent and values.
+    """
     # tf2 ignores a sample equal to a stored one with its stamp: check runs of equal stamps only.
     keep = np.ones(len(order), dtype=np.bool_)
     ordered = stamps[order]

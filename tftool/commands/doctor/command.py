@@ -138,8 +138,8 @@ def _examination(connection: Connection, options: DoctorOptions) -> Examination:
             number = -1.0
         if not limit or not 0.0 <= number < float("inf"):
             raise UsageError(
-                "--limit takes ID.NAME=VALUE, such as gap.seconds=2, and VALUE is 0 or more, not "
-                f"'{text}'"
+                f"--limit '{text}': --limit takes ID.NAME=VALUE with a VALUE of 0 or more, such as "
+                "gap.seconds=2"
             )
         limits.setdefault(check, {})[limit] = number
     topics = tuple(options.tf_topic or ())

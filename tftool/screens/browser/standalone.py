@@ -46,7 +46,7 @@ class StandaloneData:
     Attributes:
         name: Name of the source for messages, such as "recording 'run.mcap'".
         buffer: Transform buffer with the frames.
-        epoch: Time that is 0 on the page, nanoseconds; must not be 0.
+        epoch: Stamp that the page shows as 0 s, nanoseconds. The stamp itself must not be 0.
         now: Last time of the data.
         begin: Time to show first; None for the latest transforms.
         robot: Robot among the frames, with the folders of its meshes.

@@ -186,7 +186,7 @@ class Link(LinkContext):
             self._nodes[name] = self.middleware.node(name)
 
     def _match_endpoints(self) -> None:
-        """Store other processes' nodes, publishers, subscriptions and clients in the world."""
+        """Add nodes, publishers, subscriptions, clients of other processes to the world's lists."""
         self.world.know_far_nodes(one.node for one in self.graph.entities(NODE))
         there = set(self.graph.entities(PUBLISHER, SUBSCRIPTION, CLIENT))
         for entity in self.endpoints.keys() - there:
