@@ -2,6 +2,7 @@
 
 import io
 import json
+import re
 from xml.etree import ElementTree
 
 import pytest
@@ -215,6 +216,8 @@ def test_each_check_can_be_explained_without_a_finding(check):
     text = findings.explained(check)
     assert text.startswith(f"{check.id}: {check.summary}\n")
     assert "{" not in text.replace("{ignore", "")
+    # A headline of placeholders alone would be a word in capitals without a meaning.
+    assert not re.search(r"^says +[A-Z_]+$", text, re.MULTILINE)
     for name, value in check.limits.items():
         assert f"{name} = {value:g}" in text
     for link in check.links:

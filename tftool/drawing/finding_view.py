@@ -1,7 +1,7 @@
 """The doctor's diagnosis for terminals, --json, Markdown and build servers (JUnit)."""
 
 from collections.abc import Sequence
-from re import findall, sub
+from re import findall, fullmatch, sub
 from string import Formatter
 from textwrap import TextWrapper
 from typing import Any
@@ -411,7 +411,9 @@ def explained(check: Check, width: int | None = None) -> str:
         lines.append(f"limits   {names}  (--limit {check.id}.{next(iter(check.limits))}=VALUE)")
     if check.needs:
         lines.append(f"needs    {', '.join(check.needs)}")
-    lines.append(f"says     {_general(check.headline)}")
+    # A headline of one placeholder, such as {named}, says nothing without a finding.
+    if not fullmatch(r"\{\w+\}", check.headline):
+        lines.append(f"says     {_general(check.headline)}")
     lines.append(f"so       {_general(check.consequence)}.")
     for number, cause in enumerate(check.causes):
         lines.append(f"{'causes ' if not number else '       '}  {cause}")
@@ -463,7 +465,8 @@ def _paragraphs(check: Check) -> list[str]:
         lines.append(f"- **thresholds**: {', '.join(given)}")
     if check.needs:
         lines.append(f"- **needs**: {', '.join(check.needs)}")
-    lines.append(f"- **says**: {_marked(_general(check.headline))}")
+    if not fullmatch(r"\{\w+\}", check.headline):
+        lines.append(f"- **says**: {_marked(_general(check.headline))}")
     lines.append(f"- **so**: {_marked(_general(check.consequence))}.")
     if check.causes:
         lines.append(f"- **causes**: {_marked('; '.join(check.causes))}")
