@@ -52,6 +52,14 @@ test("limits hold every value, and are never of no height", () => {
   assert.deepEqual(bounds([{ values: [null] }]), [-1, 1]);
 });
 
+test("a level fits beside the plot", () => {
+  for (const limits of [[0, 2e9], [1e9 - 1, 1e9 + 1], [-123456, 0], [-0.002, 0.002]]) {
+    const found = levels(limits, 60);
+    assert.ok(found.length > 0);
+    assert.ok(found.every(({ text }) => text.length <= 7), JSON.stringify(found));
+  }
+});
+
 test("noise below a thousandth does not fill the plot", () => {
   const [least, most] = bounds([{ values: [0, 3e-6, -1e-7] }]);
   assert.ok(most - least >= 0.002 - 1e-12);

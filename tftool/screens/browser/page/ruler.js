@@ -108,7 +108,10 @@ export function levels([least, most], height, apart = 18) {
   const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
   const found = [];
   for (let number = Math.ceil(least / step); number * step <= most; number++) {
-    found.push({ value: number * step, text: digits > 4 ? (number * step).toExponential(1) : (number * step + 0).toFixed(digits) });
+    const text = (number * step + 0).toFixed(digits);
+    // More than seven characters do not fit beside the plot.
+    const isLong = digits > 4 || text.length > 7;
+    found.push({ value: number * step, text: isLong ? (number * step).toExponential(1) : text });
   }
   return found;
 }
