@@ -108,7 +108,7 @@ def test_a_wheel_that_is_zero_every_other_time_has_joint_states_of_two_sources()
     assert ids(made) == ["publisher-conflict"]
     conflict = found(made, "publisher-conflict")
     assert conflict.severity is Severity.WARNING
-    assert "one value 101 times, others 99 times, by turns" in conflict.evidence[0]
+    assert "one value 101 times, others 99 times, alternating" in conflict.evidence[0]
     assert conflict.fixes[0].text.startswith("find who publishes joint states")
 
 
@@ -358,7 +358,9 @@ def test_a_split_tree_is_worse_where_messages_are_in_it():
 
     bare = robot(laser=False, scans=False)
     bare.moving("turret", "gun")
-    assert "look whether the robot sends any" in found(bare, "split-tree").fixes[0].text
+    assert (
+        "check whether the robot sends static transforms" in found(bare, "split-tree").fixes[0].text
+    )
     assert "the statics are missing" not in finding.fixes[0].text
 
     made.hears("/image", "camera_optical", kind="sensor_msgs/Image")
@@ -399,7 +401,7 @@ def test_wheels_of_one_message_with_two_publishers_are_one_finding():
     ]
     # The publishers are unknown, so nothing proves two sources.
     assert conflicts[1].message == (
-        "left in base_link, right in base_link have two different values, by turns"
+        "left in base_link, right in base_link have two different values, which alternate"
     )
     # Two wheels that only turn may as well be fast.
     assert [one.severity for one in conflicts] == [Severity.WARNING, Severity.NOTE]

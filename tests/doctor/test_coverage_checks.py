@@ -44,7 +44,7 @@ def test_a_hole_is_told_with_its_ends():
     assert finding.severity is Severity.WARNING
     assert finding.evidence[0].endswith(
         # The robot drives 0.5 m/s.
-        "usually every 20 ms); 10 sensor messages in it; across it: 0° and 0.51 m"
+        "usually every 20 ms); 10 sensor messages in the gap; across the gap: 0° and 0.51 m"
     )
 
 
@@ -146,8 +146,8 @@ def test_joint_states_without_transforms_of_joints_need_robot_state_publisher():
     made = robot(laser=False)
     made.hears("/joint_states", "", kind="sensor_msgs/JointState")
     finding = found(made, "static-missing")
-    assert "no transform of a joint, as without robot_state_publisher" in finding.message
-    assert finding.fixes[0].text.startswith("look whether robot_state_publisher runs")
+    assert "no transform of a joint (no robot_state_publisher?)" in finding.message
+    assert finding.fixes[0].text.startswith("check whether robot_state_publisher runs")
     assert not any("record /tf" in fix.text for fix in finding.fixes)
     made.moving("base_link", "wheel")
     assert "if so, record /tf" in found(made, "static-missing").fixes[0].text
@@ -349,8 +349,8 @@ def test_the_advised_wait_leaves_a_stall_out():
         if seconds(START + 10.0) < log < seconds(START + 10.6):
             rows[number] = (seconds(START + 13.0), sender)
     cure = found(made, "sensor-outruns-tf").fixes[0].text
-    assert "is enough for 95 %; the longest wait is" in cure
-    assert int(cure.split("timeout of ")[1].split()[0]) < 200
+    assert "are enough for 95 % of the messages; the longest wait is" in cure
+    assert int(cure.split("in the lookup: ")[1].split()[0]) < 200
 
 
 def silent(made: Robot, begin: float, end: float, lost: bool) -> None:
@@ -370,7 +370,7 @@ def test_a_network_that_is_gone_for_a_time_is_one_finding(lost):
     silent(made, 3.0, 6.0, lost)
     finding = found(made, "outage")
     assert finding.message == "nothing arrived for 3.02 s on 2 of 2 streams"
-    assert ("on 1 of them data of that time never came" in finding.evidence[0]) == lost
+    assert ("on 1 of them, data of that time is missing" in finding.evidence[0]) == lost
     assert finding.topics == ("/scan",)
     # The lidar continues, so not all streams stop.
     made = robot()
@@ -405,14 +405,14 @@ def test_each_outage_is_told_whatever_the_offset_of_the_clock(ahead):
         "nothing arrived for 6.02 s on 2 of 2 streams, the longest of 2 outages (9.04 s in all)"
     )
     assert finding.count == 2
-    assert "on 2 of them data of that time never came (up to 6.10 s)" in finding.evidence[0]
+    assert "on 2 of them, data of that time is missing (up to 6.10 s)" in finding.evidence[0]
     # Some data of the outage is lost, but less than half.
     held = robot(scans=False)
     held.hears("/scan", "laser", end=3.0)
     held.hears("/scan", "laser", begin=4.0)
     silent(held, 2.0, 6.0, lost=False)
     told = found(held, "outage").evidence[0]
-    assert "on 1 of them data of that time never came (up to 1.10 s)" in told
+    assert "on 1 of them, data of that time is missing (up to 1.10 s)" in told
 
 
 def test_messages_as_late_as_their_transforms_are_placed():
@@ -645,7 +645,7 @@ def test_transforms_in_an_unknown_encoding_are_named(encoding, told):
     ]
     assert ("4 messages on /tf in the encoding protobuf" in finding.message) is told
     (fix,) = finding.fixes
-    assert ("look whether the robot sends" in fix.text) is not told
+    assert ("check whether the robot sends" in fix.text) is not told
 
 
 def faces(lasting: float) -> Robot:

@@ -64,7 +64,7 @@ def test_the_topic_of_joint_states_is_named_as_it_was_recorded():
     made.joints = frozenset()
     made.hears("/car/joint_states", "", hz=0.0, kind="sensor_msgs/JointState")
     finding = found(made, "joint-without-state")
-    assert finding.evidence[0].endswith("; /car/joint_states has no message in it")
+    assert finding.evidence[0].endswith("; /car/joint_states has no message")
     assert finding.fixes[0].text.endswith("/car/joint_states`")
 
     made.hears("/car/joint_states", "", kind="sensor_msgs/JointState")

@@ -304,7 +304,7 @@ def test_a_pose_that_stalls_again_and_again_is_a_warning_and_a_few_stalls_are_no
     assert "source of all these streams" in together.fixes[0].text
     made = stalls(pose)
     made.moving("base_link", "arm")
-    assert "arm in base_link went on" in found(made, "gap").fixes[0].text
+    assert "arm in base_link continued" in found(made, "gap").fixes[0].text
 
 
 def test_a_map_on_the_recorders_clock_is_not_among_all_shifted_stamps():

@@ -233,7 +233,7 @@ def test_a_slash_on_messages_that_are_older_than_their_frame_says_so():
         finding = found(made, "slash-twins")
         aged = "/cloud is dated 2.10 s or more before the first sample of base_link in odom, and"
         assert finding.message.startswith(aged) is told
-        assert finding.fixes[0].text.startswith("first the age: /cloud arrives 4.00 s") is told
+        assert finding.fixes[0].text.startswith("first find out why /cloud arrives 4.00 s") is told
 
 
 def test_clouds_that_are_all_older_than_the_transforms_are_a_warning():

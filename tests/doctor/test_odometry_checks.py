@@ -76,8 +76,8 @@ def far_away(height: float) -> Robot:
 
 def test_a_filter_far_below_the_positions_that_it_uses():
     finding = found(far_away(-800.0), "odometry-tf-mismatch")
-    assert finding.message == "/odometry/gps and tf are far apart about base_link in odom"
-    assert "z is first -800.00 m in tf, 0 mm there" in finding.evidence[0]
+    assert finding.message == "/odometry/gps and tf have positions far apart for base_link in odom"
+    assert "z of the first is -800.00 m in tf, 0 mm in the message" in finding.evidence[0]
     # A drift that is shorter than ten metres beyond the way is no fault.
     assert ids(far_away(-8.0)) == []
 

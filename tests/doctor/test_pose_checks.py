@@ -28,10 +28,10 @@ def test_zeros_that_a_detector_sends_by_turns_with_poses_are_one_finding():
     assert finding.publishers == ("/detector",)
     assert finding.count == 160
     assert finding.message == (
-        "obj1, obj2 in camera are sent as exactly 0 0 0 in 66.7 % of their samples, by turns with "
-        "other poses"
+        "obj1, obj2 in camera are sent as exactly 0 0 0 in 66.7 % of their samples, alternating "
+        "with other poses"
     )
-    assert finding.fixes[0].text.startswith("look whether /detector has a measurement")
+    assert finding.fixes[0].text.startswith("check whether /detector has a measurement")
 
 
 def test_rare_zeros_of_a_detector_explain_its_jumps():
@@ -57,7 +57,8 @@ def test_two_values_of_one_node_are_not_two_sources():
     made = detections(invalid=(0.0, 0.0, 0.4, *NO_TURN))
     finding = found(made, "publisher-conflict")
     assert finding.message == (
-        "obj1 in camera, obj2 in camera have two different values, by turns, both sent by /detector"
+        "obj1 in camera, obj2 in camera have two different values, which alternate, both "
+        "sent by /detector"
     )
     assert not any("joint" in fix.text for fix in finding.fixes)
 

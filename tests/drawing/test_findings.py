@@ -106,7 +106,7 @@ def test_a_late_transform_does_not_hide_that_all_stamps_are_shifted():
     made.hears("/scan", "laser", 10.0)
     told = shown(findings.render(made.judged()))
     assert "warning  stale-stamp" in told
-    assert "s late (median, apart from the 24 days of the clock)" in told
+    assert "s late (median, without the 24 days by which the clock is off)" in told
     assert "no clock is wrong" not in told
     assert "clocks: most stamps are 24 days before their arrival" in told
 

@@ -186,10 +186,10 @@ def _example(group: "list[Track | Heard]", simulated: bool) -> int:
     Severity.NOTE,
     rule="more than half of all streams have stamps that differ from their reception by the same "
     "constant, more than 2 s and equal to within 1 s. If all streams are ahead of their reception, "
-    "only the half of the messages that waited least has to be equal so. Not reported if "
-    "transforms and messages with a position agree with the recorder's clock to within 1 s, as "
-    "those of another robot. A warning if the stamps are after the reception, because a recording "
-    "that is played again cannot have such stamps",
+    "only the half of the messages that waited least has to agree to within 1 s. Not reported if "
+    "some transforms and messages with a position, such as those of a second robot, agree with the "
+    "recorder's clock to within 1 s. A warning if the stamps are after the reception, because a "
+    "recording that is played again cannot have such stamps",
     headline="{most} stamps are {by:span} {side} their reception, constant to {spread:span}{told}",
     detail="{streams} of {of} streams; latencies and the cache are judged against the clock of the "
     "stamps",
@@ -221,8 +221,8 @@ def shifted_clock(model: Model, limits: Limits) -> Iterator[Hit]:
             "streams": model.shift.streams,
             "of": model.shift.of,
             "most": "most" if _has_unshifted(model, model.shift) else "all",
-            "live": "a node on the recorder's computer that asks for its present time gets data of "
-            "another moment, or none",
+            "live": "a node on the recorder's computer that looks up its present time gets data of "
+            "another time, or none",
         },
         severity=Severity.WARNING if model.shift.by < 0 and not model.was_played else None,
         fixes=(cure_of_offset(model),),
@@ -241,8 +241,8 @@ def _has_unshifted(model: Model, shift: Shift) -> bool:
     "future-stamp",
     Severity.NOTE,
     rule="the stamps of a transform are later than its arrival: by more than {seconds:g} s in the "
-    "median (from map to odometry: {localisation:g} s). Not reported if they are later by the "
-    "period of the transform, or by a constant of up to 1 s",
+    "median (from map to odometry: {localisation:g} s). Not reported if the difference is the "
+    "period of the transform, or a constant of up to 1 s",
     headline="{where} {concerned:is|are} dated {ahead:span} ahead of {concerned:its|their} arrival",
     detail="{edge}: {ahead:span} ahead (median){clock}",
     consequence="the latest common time is in the future: a lookup of the latest transform combines"
@@ -362,10 +362,10 @@ def wild_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     detail="{groups}{sources}",
     consequence="{so}",
     causes=(
-        "robot base and single-board computer",
-        "robot and desk computer",
-        "a lidar in its own time",
-        "a recording that is played beside nodes on the present time",
+        "the clocks of robot base and single-board computer differ",
+        "the clocks of robot and desk computer differ",
+        "a lidar has its own clock",
+        "a recording is played while nodes run on the present time",
     ),
     links=threads(
         "turtlebot/turtlebot4_robot#8", "DFKI-NI/mir_robot#7", "ROBOTIS-GIT/turtlebot3#618"
@@ -423,10 +423,11 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
             by += f" to {span(offsets[-1])}"
         told = ""
         if model.shift is not None and len(heards) < len(streams):
-            told = f": {model.shift.streams} of {model.shift.of} streams are not on the recorder's"
+            shift = model.shift
+            told = f": {shift.streams} of {shift.of} streams are not on the recorder's clock"
         sources = _on_both_clocks(model, streams)
-        so = "each lookup at these stamps asks for what is not there"
-        so += " yet" if ahead > 0 else " any more"
+        so = "each lookup at these stamps asks for data that "
+        so += "has not arrived yet" if ahead > 0 else "the buffer has already dropped"
         if 0 < ahead <= model.settings.cache_time:
             so = f"each lookup at these stamps has to wait {by} longer, or fails"
         side = "ahead of" if ahead > 0 else "behind"
@@ -437,7 +438,7 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
             off = f"{side} the recorder's clock"
             so = (
                 "lookups among the robot's own data work; a node on the recorder's computer that "
-                "asks for its present time gets another moment"
+                "looks up its present time gets data of another time"
             )
         elif len(heards) < len(streams) and abs(ahead) > model.settings.cache_time:
             so = "no lookup across the two clocks can succeed"

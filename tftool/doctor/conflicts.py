@@ -71,13 +71,13 @@ def fed_twice(track: Track, hit: Hit, limits: Limits) -> Hit | None:
     )
     owned = (moving, resting[near])
     told = _conflict(track, ("A", "B"), owned, (moving, resting), Confidence.LIKELY)
-    text = f"one value {len(resting):,} times, others {len(moving):,} times, by turns"
+    text = f"one value {len(resting):,} times, others {len(moving):,} times, alternating"
     facts = {**told.facts, "told": text}
     if not is_revolute(track) and not any("state_publisher" in node for node in track.nodes):
         return replace(told, facts=facts)
     cure = (
-        "find who publishes joint states: `{publishers} /joint_states`; look who always sends one "
-        "value"
+        "find who publishes joint states: `{publishers} /joint_states`; look which one always "
+        "sends the same value"
     )
     return replace(told, facts=facts, fixes=(Fix(cure),))
 
@@ -157,7 +157,7 @@ def with_doubled(model: Model, track: Track, hit: Hit) -> Hit:
     if not doubled or hit.confidence is Confidence.CERTAIN:
         return hit
     also = f"; {several(doubled, 3)}: sent twice, with equal values"
-    fix = Fix("look whether the robot's software was started twice")
+    fix = Fix("check whether the robot's software was started twice")
     return replace(hit, facts={**hit.facts, "also": also}, fixes=(*hit.fixes, fix))
 
 
@@ -296,12 +296,15 @@ _MORE = 1.5
 def _two_motions(
     track: Track, places: Places, limits: Limits
 ) -> tuple[tuple[Places, Places], tuple[Places, Places]] | None:
-    """Return the samples of two alternating motions, as `_alternating` does; else None.
+    """Return the samples of two alternating motions of an edge; else None.
 
     Args:
         track: The edge's samples.
         places: Rows of the samples in the order of their stamps, shape (n,).
         limits: The thresholds.
+
+    Returns:
+        Two pairs: the samples to compare (see `_alternating`), and all samples of each motion.
     """
     if _turns_one_way(track, places):
         return None
@@ -326,7 +329,8 @@ def _near_tracks(
         limits: The thresholds.
 
     Returns:
-        Two pairs, as of `_alternating`.
+        Two pairs of rows: each sample of the first track with the sample of the second track to
+        compare with, and all samples of each track.
     """
     far = apart >= limits["near"]
     if np.count_nonzero(far) < max(limits["near_changes"], len(apart) // 2):
@@ -368,15 +372,16 @@ def _alternating(
 ) -> tuple[tuple[Places, Places], tuple[Places, Places]] | None:
     """Return the samples of two alternating motions; None if one motion explains all samples.
 
-    The first pair is the samples to compare, as in `_conflict`; the second pair is all samples of
-    each motion.
-
     Args:
         track: The edge's samples.
         places: Rows of the samples in the order of their stamps, shape (n,).
         owners: Number of the motion to which each sample is assigned, shape (n,).
         single_errors: Error of each sample under the assumption of a single motion, shape (n,).
         limits: The thresholds.
+
+    Returns:
+        Two pairs: the samples to compare (the argument `owned` of `_conflict`), and all samples of
+        each motion.
     """
     turns = np.flatnonzero(np.diff(owners)) + 1
     if len(turns) < limits["changes"] or len(turns) <= limits["share"] * (len(owners) - 1):
@@ -498,11 +503,11 @@ def _conflict(
         rates.append((len(stamps) - 1) * NANOSECONDS / lasts if lasts else 0.0)
         late.append(int(np.median(track.latency[places])))
     apart, turned = track.apart(*owned), track.turned(*owned)
-    seen = f": {names[0]} and {names[1]}" if known else ", by turns"
+    seen = f": {names[0]} and {names[1]}" if known else ", which alternate"
     fix = find_publishers([track])
     if is_one:
-        seen = f", by turns, both sent by {track.nodes[0]}"
-        fix = Fix(f"look where {track.nodes[0]} gets each of the two values from")
+        seen = f", which alternate, both sent by {track.nodes[0]}"
+        fix = Fix(f"find out where {track.nodes[0]} gets each of the two values from")
     still = [
         f"; all poses of {name} are equal"
         for name, places in zip(names, owned, strict=True)
@@ -560,6 +565,6 @@ def find_publishers(tracks: Sequence[Track]) -> Fix:
     """Return the remedy for a transform with several publishers: let only one publisher send it."""
     nodes = sorted({node for track in tracks for node in track.nodes})
     if len(nodes) > 1:
-        return Fix(f"let only one of its publishers send it: {', '.join(nodes)}")
+        return Fix(f"let only one of these nodes publish the transform: {', '.join(nodes)}")
     topics = sorted({topic for track in tracks for topic in track.topics}) or ["/tf"]
     return Fix("find its publishers: " + ", ".join(f"`{{publishers}} {topic}`" for topic in topics))

@@ -25,11 +25,12 @@ check = checks_of(Area.COVERAGE)
 @check(
     "static-missing",
     Severity.ERROR,
-    rule="no topic for static transforms has a message, and messages are in frames that are in no "
-    "transform, but are mounts by the description or by a name such as laser_link. A warning "
-    "if the recording has no such topic, if none of these messages is a scan, a point cloud or a "
-    "range, or if tf has no base frame. Not reported if the recording has no such topic and "
-    "constants other than odometry are sent on /tf, as in early ROS 1",
+    rule="no topic for static transforms has a message, and messages are in frames that no "
+    "transform contains. These frames are mounts, judged by the description or by a name such as "
+    "laser_link. A warning if the recording has no such topic, if none of these messages is a "
+    "scan, a point cloud or a range, or if tf has no base frame. Not reported if the "
+    "recording has no such topic and constants other than odometry are sent on /tf, as in early "
+    "ROS 1",
     headline="no transform names {frames}: {why}",
     detail="in these frames: {used}",
     consequence="these messages cannot be placed",
@@ -58,14 +59,18 @@ def static_missing(model: Model, limits: Limits) -> Iterator[Hit]:
     if not unknown:
         return
     static = [topic for topic in model.evidence.topics if topic.static]
-    why = "there is no /tf_static in it"
+    why = "the recording has no /tf_static"
     if static:
-        why = f"{static[0].name} is there and has no message"
-    cure = "look whether the robot sends any: `{publishers} /tf_static`; if so, {record}"
+        why = f"{static[0].name} has no message"
+    cure = (
+        "check whether the robot sends static transforms: `{publishers} /tf_static`; if so, "
+        "{record}"
+    )
     if model.lacks_state_publisher:
-        why = "joint states came, but no transform of a joint, as without robot_state_publisher"
+        why = "joint states arrived, but no transform of a joint (no robot_state_publisher?)"
         cure = (
-            "look whether robot_state_publisher runs; if not, start it with the robot's description"
+            "check whether robot_state_publisher runs; if not, start it with the robot's "
+            "description"
         )
     names = sorted({heard.frame.removeprefix("/") for heard in unknown})
     fixes = [Fix(cure)]
@@ -255,7 +260,7 @@ class Waits:
         return int(np.percentile(self.served, percent, method="higher"))
 
     def is_short_without(self, links: Iterable[Track], wait: float) -> bool:
-        """Whether 95 % of the messages would wait less than `wait` seconds without some edges."""
+        """Whether 95 % of the messages wait less than `wait` seconds for edges not in `links`."""
         rest = [link.served_from(self.stamps) for link in self.links if link not in links]
         late = [int(percentile(served - self.arrivals, 95)) for served in rest]
         return max(late, default=0) < wait * NANOSECONDS
@@ -300,22 +305,22 @@ def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Wa
     "sensor-outruns-tf",
     Severity.WARNING,
     rule="a scan, a point cloud or a range on the robot waits for the last transform that a lookup "
-    "at its stamp needs. The 95 % quantile of these waits is {seconds:g} s or more, or a "
-    "share of the messages above {never:g} never gets the transform; and a share above "
-    "{some:g} has to wait. If a share above {all:g} has to wait, the quantile is rounded up to "
+    "at its stamp needs. A share of the messages above {some:g} has to wait. The 95 % quantile of "
+    "these waits is {seconds:g} s or more, or a share of the messages above {never:g} never gets "
+    "the transform. If a share above {all:g} has to wait, the quantile is rounded up to "
     "10 ms. A note for other messages, and if a share above {refused:g} has to "
     "wait and the quantile is {note:g} s or more. The topic has at least {messages:g} "
     "messages. Not reported for markers, odometry, paths, maps, and messages of an IMU, a "
     "compass or a satellite receiver",
     headline="{topics} {topics:arrives|arrive} before the transforms {topics:it needs|they need}",
-    detail="{refused:%} refused at arrival (in {fixed}); wait {p50:span} (median), {p95:span} "
-    "(95 %), {worst:span} (worst); {never:%} never served; held up by {link}, which comes every "
-    "{period:span}, {arrives}",
-    consequence='"extrapolation into the future" without a wait; a message filter delays these '
-    "messages, and drops some if its queue is full",
+    detail="lookups in {fixed} fail for {refused:%} of the messages at arrival, for {never:%} "
+    "always; wait {p50:span} (median), {p95:span} (95 %), {worst:span} (worst); the last transform "
+    "to arrive is {link}, which comes every {period:span}, {arrives}",
+    consequence='lookups without a timeout fail with "extrapolation into the future"; a message '
+    "filter delays these messages, and drops some if its queue is full",
     causes=(
         "odometry is slower or later than the sensor",
-        "the clocks of two computers",
+        "the clocks of two computers differ",
         "a constant on /tf at 10 Hz",
         "load",
     ),
@@ -462,12 +467,12 @@ def _outrun(model: Model, group: list[tuple[Heard, Waits]], limits: Limits) -> H
 
 
 def _arrives(heard: Heard, link: Track) -> str:
-    """Return a clause about the latency of an edge, without the offset of a clock that is off."""
+    """Return a clause about an edge's latency, relative to the topic's if stamps are far ahead."""
     if link.median_latency > -NANOSECONDS:
         return arrival(link.median_latency)
     later = link.median_latency - heard.median_latency
     side = "later" if later > 0 else "sooner"
-    return f"{span(abs(later))} {side} after its stamp than {heard.topic}"
+    return f"{span(abs(later))} {side} (from stamp to arrival) than {heard.topic}"
 
 
 _ONE_CLOCK = 50_000_000
@@ -519,13 +524,13 @@ def _cures(heard: Heard, waits: Waits, wait: float) -> tuple[Fix, ...]:
     )
     is_mount = link in mounts and waits.is_short_without(mounts, wait)
     wait_for = (
-        f"wait for it: a timeout of {rounded_up(worst) // 10**6} ms is enough for all that can "
-        f"ever be placed ({math.ceil(usual / 1e6)} ms for 95 %)"
+        f"use a timeout in the lookup: {rounded_up(worst) // 10**6} ms are enough for all messages "
+        f"whose lookup can succeed ({math.ceil(usual / 1e6)} ms for 95 %)"
     )
     if worst > 3 * usual:  # no wait to plan for
         wait_for = (
-            f"wait for it: a timeout of {max(10, rounded_up(usual) // 10**6)} ms is enough for "
-            f"95 %; the longest wait is {span(worst)}"
+            f"use a timeout in the lookup: {max(10, rounded_up(usual) // 10**6)} ms are enough for "
+            f"95 % of the messages; the longest wait is {span(worst)}"
         )
     return (
         Fix(wait_for),

@@ -215,9 +215,11 @@ _SAME_POSES = 0.8
 
 
 def _median(model: Model) -> dict[str, Fact]:
-    """Return the facts of a median latency; a shifted clock's offset is not part of it."""
+    """Return the facts of a median latency, which does not contain a shifted clock's offset."""
     shift = model.shift
-    apart = "" if shift is None else f", apart from the {span(abs(shift.by))} of the clock"
+    apart = (
+        "" if shift is None else f", without the {span(abs(shift.by))} by which the clock is off"
+    )
     return {"upto": "", "of": f"median{apart}"}
 
 
@@ -246,8 +248,8 @@ def _late(model: Model, stream: "Track | Heard") -> Hit:
 def _prompt_beside(model: Model, track: Track) -> list[str]:
     """Return the names of moving transforms that arrive in time, in the tree of a late edge.
 
-    The result is empty for a localiser, and for objects that a camera detects: they take time. It
-    is empty for an edge on another clock: see `clock-offset`.
+    The result is empty for a localiser, and for objects that a camera detects, because their poses
+    take time to compute. It is also empty for an edge on another clock: see `clock-offset`.
     """
     above = [
         one for one in model.above(track.child) if 2 * one.median_latency > track.median_latency

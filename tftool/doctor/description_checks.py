@@ -18,7 +18,7 @@ from tftool.robots.robot_model import Robot
 
 check = checks_of(Area.DESCRIPTION)
 
-_STATES = "look who publishes joint states: `{publishers} {states}`"
+_STATES = "find out who publishes joint states: `{publishers} {states}`"
 
 
 @check(
@@ -97,7 +97,7 @@ def joint_without_state(model: Model, limits: Limits) -> Iterator[Hit]:
                 "below": below,
                 "kind": joint.type,
                 "states": topics[0] if topics else "/joint_states",
-                "silent": f"; {several(topics)} has no message in it" * is_silent,
+                "silent": f"; {several(topics)} has no message" * is_silent,
             },
             severity=None
             if any(last_part(h.type) in PLACED and h.frame in (child, *below) for h in model.heard)

@@ -169,7 +169,10 @@ class Moment(Protocol):
         """Return the time as a stamp in nanoseconds; `epoch` is the first stamp of the source."""
 
     def meant(self, epoch: Stamp, end: Stamp) -> str:
-        """Return a hint if the time was probably meant as a stamp, else ""; a space comes first."""
+        """Return a hint if the time was probably meant as a stamp, else "".
+
+        The hint begins with a space, because it follows another sentence.
+        """
 
 
 @dataclass(frozen=True, slots=True)
@@ -364,10 +367,11 @@ def _cut_headers(headers: Headers, begin: Stamp, end: Stamp) -> Headers:
 
 
 def without_doubtful_names(transforms: Transforms) -> Transforms:
-    """Return transforms without node names, if the recording does not name their publishers.
+    """Return transforms without node names, if the names are not those of the real publishers.
 
-    `rosbag filter` and similar programs write one connection for each topic, with the name of the
-    first node. A player is the only node if all transforms come from another recording.
+    Two cases are found. `rosbag filter` and similar programs write one connection for each topic,
+    with the name of the first node. If a player is the only node, all transforms come from another
+    recording.
     """
     publishers = transforms.publishers
     named = {one.node for one in publishers if one.node}
@@ -382,8 +386,9 @@ def without_doubtful_names(transforms: Transforms) -> Transforms:
 def _has_merged_nodes(transforms: Transforms) -> bool:
     """Whether a static_transform_publisher of ROS 1 seems to send other transforms as well.
 
-    It sends one constant transform alone, and dates it ahead by the period. Nodes of a simulator
-    date all their transforms alike, so one of the others must be dated in the past.
+    A real static_transform_publisher sends one constant transform, with a stamp one period in the
+    future. A node of a simulator stamps all its transforms alike, so the result is True only if
+    one of the other transforms has a stamp in the past.
     """
     moving = [edge for edge in transforms.edges if not edge.static and len(edge) >= _REPEATS]
     ahead = [float(np.median(edge.stamps - transforms.log_times_of(edge))) for edge in moving]
@@ -414,7 +419,7 @@ _REPEATS = 10
 
 
 def without_copies(evidence: Evidence) -> tuple[tuple[Edge, ...], dict[str, int]]:
-    """Return the edges without transforms that no listener of /tf receives beside those of /tf.
+    """Leave out transforms on other topics than /tf that a listener does not need beside /tf.
 
     Such transforms are on a topic of type TransformStamped, if a list of transforms (TFMessage) has
     the child frame too. Or they are on another topic than /tf, and half of their stamps or more are
@@ -424,7 +429,7 @@ def without_copies(evidence: Evidence) -> tuple[tuple[Edge, ...], dict[str, int]
         evidence: Evidence of any source.
 
     Returns:
-        The edges, and the number of left-out transforms of each topic.
+        The edges with the other transforms, and the number of left-out transforms of each topic.
     """
     transforms, copies = evidence.transforms, Counter[str]()
     topics = [one.topic for one in transforms.publishers]

@@ -56,14 +56,14 @@ def holes(track: Track, limits: Limits) -> list[tuple[int, int]]:
     rule="the last sample of a transform arrives more than {periods:g} periods, {seconds:g} s and "
     "a share of {share:g} of the recording before its end, while other streams continue. The "
     "transform has {samples:g} samples or more, and is not a detection of a camera: a frame "
-    "without child frames, or one of three or more objects of one publisher that come and go. A "
-    "warning if all moving transforms end. Other streams are also {commands:g} or "
-    "more commands to move without a header, such as Twist. Before a jump back of time, the last "
-    "second does not count. A note if a player of recordings sent "
-    "the transforms and no /clock continues, and if all messages of the robot end too, and only "
-    "constant transforms go on. A warning if the recording has no later scan, point "
-    "cloud or range in the frame or below it. In this case, a note for a frame without "
-    "children, and for a part of a robot that did not move or has been silent for less than 60 s",
+    "without child frames, or one of three or more objects of one publisher that come and go. "
+    "{commands:g} or more commands to move, without a header, such as Twist, also count as another "
+    "stream. Before a backward jump of time, the last second does not count. A warning if all "
+    "moving transforms end. A note if a player of recordings sent the transforms and no /clock "
+    "continues, and if all messages of the robot end too and only constant transforms continue. A "
+    "warning if the recording has no later scan, point cloud or range in the frame or below it. In "
+    "this last case, a note for a frame without children, and for a part of a robot that did not "
+    "move or has been silent for less than 60 s",
     headline="{where} {concerned:stops|stop} before the end",
     detail="{edge}: last stamp {last:moment}, which arrived {before:span} before the end; came "
     "every {period:span}{beside}",
@@ -117,13 +117,13 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
         cure = f"check whether its publisher still runs: `{{publishers}} {track.topics[0]}`"
         is_played = model.was_played and all(map(is_player, track.nodes))
         if is_played:
-            cure = "a player published it: look whether the played recording ends there"
+            cure = "a player published it: check whether the played recording ends there"
         others_go_on = any(ends[id(other)] - last > least for other in model.dynamic)
         heard = {one.topic: one.logs[one.logs < stop] for one in alive if isinstance(one, Heard)}
         if driven:
             cure = (
-                "no transform and no sensor data goes on: look at the robot's drivers at this "
-                "time, and at its link to the recorder"
+                "all transforms and sensor data end here: look at the robot's drivers at this "
+                "time, and at the connection to the recorder"
             )
         severity, ended = None, int(track.stamps.max())
         clock = model.evidence.clock[1]
@@ -241,20 +241,21 @@ def is_detection(model: Model, track: Track) -> bool:
     "gap",
     Severity.WARNING,
     rule="the largest step between two samples is above {periods:g} periods and {seconds:g} s, "
-    "among {samples:g} samples or more. A note for transforms that are published on change "
-    "(standard deviation of the steps divided by their mean above {variation:g}; not if their "
-    "median deviation is below half the period and the frame moves by 0.1 m across a gap), and for "
-    "a gap below {note:g} s. A note also if no scan, point cloud or range in the frame or below it "
-    "has a stamp in the gap, unless the transform places a robot in the world. A transform that "
-    "places a robot in the world is also reported for {times:g} gaps of {again:g} s and {missed:g} "
-    "periods or more, or {dense:g} that take up a share of {taken:g} of the time from the first to "
-    "the last of them, if the last one is more than 1 s after its first sample, and for a gap of "
-    "{lost:g} s and {lost_periods:g} periods or more, after {samples:g} samples or more, across "
-    "which it turns by {turned:g}°. A transform with one exact period is also reported if a share "
-    "of {share:g} and {few:g} samples or more are missing. A note if it turns by less than "
-    "{lossy:g}° across each of these gaps, if no gap reaches {short:g} s, and for a part of a "
-    "robot that no sensor uses. The topics named beside it have messages before and after the gap, "
-    "or the same gaps in nine of ten cases",
+    "among {samples:g} samples or more. A note for a gap below {note:g} s, and for transforms that "
+    "are published on change: the standard deviation of their steps divided by the mean is above "
+    "{variation:g}. They do not count as published on change if the median deviation of the steps "
+    "is below half the period and the frame moves by 0.1 m across a gap. A note also if no scan, "
+    "point cloud or range in the frame or below it has a stamp in the gap, unless the transform "
+    "places a robot in the world. A transform that places a robot in the world is also reported "
+    "for {times:g} gaps of {again:g} s and {missed:g} periods or more, if the last gap is more "
+    "than 1 s after the first sample. {dense:g} such gaps are enough if they take up a share of "
+    "{taken:g} of the time from the first to the last of them. One gap of {lost:g} s and "
+    "{lost_periods:g} periods or more, after {samples:g} samples or more, is enough if the "
+    "transform turns by {turned:g}° across the gap. A transform with one exact period is also "
+    "reported if a share of {share:g} and {few:g} samples or more are missing. This is a note if "
+    "the transform turns by less than {lossy:g}° across each of these gaps, if no gap reaches "
+    "{short:g} s, and for a part of a robot that no sensor uses. The topics named after 'at the "
+    "same time' have messages before and after the gap, or nine of ten of the same gaps",
     headline="{where} {concerned:has a gap|have gaps}{often}",
     detail="{edge}: nothing from {begin:moment} to {end:moment} ({length:span}; usually every "
     "{period:span}){why}{beside}",
@@ -326,14 +327,14 @@ def gap(model: Model, limits: Limits) -> Iterator[Hit]:
         needed = _needed_in(model, track, begin, end)
         is_long = end - begin > 10 * track.period
         is_lost = bool(needed) or (is_long and _places_robot(model, track, begin))
-        why = f"; {missing} samples in it are unusable (NaN)" if missing else ""
-        why += f"; {count(needed, 'sensor message')} in it" if needed else ""
+        why = f"; {missing} samples in the gap are unusable (NaN)" if missing else ""
+        why += f"; {count(needed, 'sensor message')} in the gap" if needed else ""
         sent, cure = _cause(model, track, (begin, end), bool(silent))
         why += sent
         if track.moves:
             pair = track.by_stamp[np.searchsorted(track.sorted_stamps, (begin, end))]
             turned = np.degrees(track.turned(pair[:1], pair[1:]))[0]
-            why += f"; across it: {turned:.3g}° and {metres(_robot_moves(model, track, pair))}"
+            why += f"; across the gap: {turned:.3g}° and {metres(_robot_moves(model, track, pair))}"
         every = again or found
         if len(every) > 1:
             least = _least_gap(track, _short(limits) if again else limits)
@@ -381,7 +382,7 @@ _STEADY = 0.5
 _MOVED = 0.1
 """Smallest distance, metres, across a gap in which a frame moved."""
 
-_SOURCE = Fix("look at the source of all these streams, and at its link to the recorder")
+_SOURCE = Fix("look at the source of all these streams, and at its connection to the recorder")
 """Remedy for a gap of several streams at the same time."""
 
 
@@ -463,7 +464,7 @@ def _turned_or_lossy(model: Model, track: Track, limits: Limits) -> Hit | None:
             "also": [],
             "beside": f"; at the same time: {several(silent)}" if silent else "",
             "unusable": 0,
-            "why": f"; across it: {turned[place]:.3g}° and {moved}{several_gaps}{sent}",
+            "why": f"; across the gap: {turned[place]:.3g}° and {moved}{several_gaps}{sent}",
         },
         since=begin,
         until=end,
@@ -544,12 +545,17 @@ def _publisher_at(model: Model, track: Track, begin: int, end: int) -> Fix:
     streams += model.heard
     names = [one.name for one in streams if _is_going_on(one, begin, end)]
     if names:
-        return Fix(f"{several(names, 3)} went on: look at its publisher then")
+        return Fix(
+            f"{several(names, 3)} continued: look at the publisher of the transform at that time"
+        )
     return Fix("look at its publisher at that time, and at the source of the poses")
 
 
 def _in_service(model: Model, track: Track, limits: Limits) -> list[tuple[int, int]]:
-    """Return the gaps of `holes`, without those after the first sample or before the recording."""
+    """Return the gaps of `holes` that do not begin at the edge's first sample.
+
+    Gaps that end before the start of the recording are left out too.
+    """
     found = holes(track, limits)
     if not found or not model.evidence.timed:
         return found
@@ -637,8 +643,10 @@ def _cause(model: Model, track: Track, hole: tuple[int, int], silent: bool) -> t
         silent: Whether other streams have the same gap.
     """
     if empty := _without_pose(model, track, *hole):
-        text = f"; its publisher sent {count(empty, 'message')} without a transform in it"
-        return text, Fix("its publisher went on, without a pose: its source did not see the object")
+        text = f"; its publisher sent {count(empty, 'message')} without a transform in the gap"
+        return text, Fix(
+            "its publisher continued without a pose: its source did not see the object"
+        )
     return "", _SOURCE if silent else _publisher_at(model, track, *hole)
 
 
@@ -716,7 +724,7 @@ def single_sample(model: Model, limits: Limits) -> Iterator[Hit]:
             if is_passing or (alike and is_detection(model, track)):
                 names = [f"{one.child} {count(len(one.stamps), 'time')}" for one in alike]
                 beside = f"; {several(names, 3)}" if names else ""
-                fix = Fix("probably a false detection: look whether the object was there")
+                fix = Fix("probably a false detection: check whether the object was there")
             is_short = model.end - model.start < NANOSECONDS
             is_all = is_short or (len(model.tracks) == 1 and not model.heard)
             is_shown = _is_used(model, track) and not is_all and not is_passing
@@ -763,7 +771,7 @@ def no_transforms(model: Model, limits: Limits) -> Iterator[Hit]:
             for one in lists
             if not one.transforms
         ]
-        fix = Fix("look whether the robot sends any: `{publishers} /tf`; if so, record it")
+        fix = Fix("check whether the robot sends transforms: `{publishers} /tf`; if so, record /tf")
         if unread:
             fix = Fix("tftool reads tf2_msgs/TFMessage in the encodings cdr, ros1 and json")
         yield Hit(

@@ -72,7 +72,7 @@ def unknown_frame(model: Model, limits: Limits) -> Iterator[Hit]:
         raw, node = _raw_input(model, name) if fixes[0] == _FIND_IT else ([], "")
         if raw:
             told |= {heard.topic for heard in raw}
-            fixes = (Fix(f"{node} sends them: look whether its localiser ran and was recorded"),)
+            fixes = (Fix(f"{node} sends them: check whether its localiser ran and was recorded"),)
         more = sorted({h.topic for h in model.heard if h.frame == name} - told)
         if more:
             hint += f"; also in this frame, without a position: {several(more, 3)}"
@@ -96,7 +96,7 @@ def unknown_frame(model: Model, limits: Limits) -> Iterator[Hit]:
         )
 
 
-_FIND_IT = Fix("find the node that should publish the frame, or another name for it in tf")
+_FIND_IT = Fix("find the node that should publish the frame, or the name that the frame has in tf")
 
 
 def _raw_input(model: Model, name: str) -> tuple[list[Heard], str]:
@@ -216,15 +216,15 @@ def _renames(model: Model, name: str, alike: list[str], heards: list[Heard]) -> 
     "slash-twins",
     Severity.ERROR,
     rule="the frame in a header begins with a slash, and a transform has the same name without the "
-    "slash. A warning in ROS 1, whose tf strips the slash. A note if the transforms have the "
+    "slash. A warning in ROS 1, whose tf removes the slash. A note if the transforms have the "
     "slash too",
     headline="{topic} {aged}names {frame}, {tf}",
     detail="{topic}: {frame}, {count:times}{outside}",
-    consequence="every direct tf2 lookup refuses (message filters and tf 1 strip the slash): "
-    "\"in tf2 frame_ids cannot start with a '/'\"",
+    consequence="every direct tf2 lookup fails: \"in tf2 frame_ids cannot start with a '/'\" "
+    "(message filters and tf 1 remove the slash)",
     fixes=(
         Fix('set frame_id to "{known}" in the publisher of {topic}'),
-        Fix("in a recording:", "tftool edit RECORDING -o CLEAN --strip-slash --everywhere"),
+        Fix("to repair a recording:", "tftool edit RECORDING -o CLEAN --strip-slash --everywhere"),
     ),
     causes=("a publisher written for tf 1",),
     links=threads("ros-simulation/stage_ros#68", "gisbi-kim/FAST_LIO_SLAM#15"),
@@ -265,12 +265,12 @@ def _age_first(model: Model, heard: Heard) -> Fix:
     """Return the remedy to try first for messages whose stamps no transform covers."""
     late = heard.median_latency
     if not model.evidence.timed or late < LAP:
-        return Fix(f"first look why no transform covers the time of {heard.topic}; then")
+        return Fix(f"first find out why no transform covers the time of {heard.topic}; then")
     nodes = sorted({one.node for one in model.evidence.publishers if one.topic == heard.topic})
     of = f"{several(nodes)}, which sends it" if any(nodes) else "the node that sends it"
     return Fix(
-        f"first the age: {heard.topic} arrives {span(late)} after its stamp; look at the queue and "
-        f"the load of {of}; then"
+        f"first find out why {heard.topic} arrives {span(late)} after its stamp: check the queue "
+        f"and the load of {of}; then"
     )
 
 

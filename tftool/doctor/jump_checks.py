@@ -31,8 +31,8 @@ check = checks_of(Area.VALUES)
     "reported for {corrections:g} steps or more that move the robot by {corrected:g} m, not "
     "counting the step to an initial pose. An object that a camera detects is reported for "
     "{corrections:g} steps or more of {detected:g} m and 2 m/s within 1 s. Not reported in a world "
-    "frame for a step less than 1 s after a gap of 0.2 s and 8 periods or more, if its speed is "
-    "below {speed:g} m/s from the last pose before the gap, and its turn is no jump",
+    "frame for a step less than 1 s after a gap of 0.2 s and 8 periods or more, if the "
+    "speed from the last pose before the gap is below {speed:g} m/s, and the turn is no jump",
     headline="{named}",
     detail="{edge}: {jump:m} and {turn:deg} at {at:moment}, {count:times}{others}{usual}{after}",
     consequence="things placed before and after the jump do not fit together{also}",
@@ -171,10 +171,10 @@ def _jump(model: Model, track: Track, places: Places, limits: Limits) -> Hit | N
 
 
 def _ends_gap(track: Track, jump: int, limits: Limits) -> bool:
-    """Whether the frame may have moved as far as a jump leads during a gap less than 1 s before.
+    """Whether the frame may have moved to the pose after a jump since the begin of a recent gap.
 
-    Poses of a tracker that were held up often have the stamps of their arrival, so the frame seems
-    to catch up in one step after the gap.
+    The gap ends less than 1 s before the jump. If a tracker's poses are delayed, they are often
+    stamped on arrival, so the frame seems to catch up in one step after the gap.
 
     Args:
         track: The edge.

@@ -85,7 +85,7 @@ def proposed_frame(model: Model, name: str, kinds: Iterable[str] = ()) -> Join |
     if is_world(name) or not any(last_part(kind) in _MOUNTED for kind in kinds):
         return None
     fixed = f", fixed to {base}" if base else ""
-    text = f"if it is a mount of its own{fixed}, publish where it is:"
+    text = f"if {name} is a separate part of the robot{fixed}, publish its pose:"
     return Join((base, name) if base else None, "", _mount(model, text, base or "PARENT", name))
 
 
@@ -252,11 +252,11 @@ def _by_another_name(model: Model, tree: Tree, other: Tree) -> Join | None:
     for name in sorted(other.frames):
         if prefix(name) != prefix(root) or distinctive_words(name) != distinctive_words(root):
             continue
-        why = f"{name} is near: {root} may be a frame of the same part"
+        why = f"the names {name} and {root} are similar: both may be frames of one part"
         if model.lacks_statics and model.evidence.recorded:
             return Join((name, root), why, _mount(model, why, name, root))
         return Join(
-            (name, root), why, Fix(f"{why}: look which of the two its publisher should use")
+            (name, root), why, Fix(f"{why}: check which of the two its publisher should use")
         )
     return None
 
@@ -270,14 +270,14 @@ def _mount(model: Model, text: str, parent: str, child: str, pose: Transform | N
         return Fix(text, static_publisher(parent, child, pose, ros1=is_ros1(model.evidence)))
     if model.lacks_state_publisher:
         return Fix(
-            "look whether robot_state_publisher runs; if not, start it with the robot's "
-            "description; to mend the recording:",
+            "check whether robot_state_publisher runs; if not, start it with the robot's "
+            "description; to repair the recording:",
             "tftool edit RECORDING -o WHOLE --statics-from DESCRIPTION",
         )
     # The robot probably sends it: a second publisher would contradict the first one.
     return Fix(
-        f"no statics were recorded: if {child} in {parent} is one, record /tf_static too, or take "
-        "it from another recording or the robot description:",
+        f"no statics were recorded: if {child} in {parent} is static, record /tf_static too, or "
+        "take the statics from another recording or the robot description:",
         "tftool edit RECORDING -o WHOLE --statics-from OTHER",
     )
 

@@ -146,8 +146,8 @@ class Model:
         evidence: The evidence.
         settings: Settings of the listener.
         tracks: Samples of each edge, without the edges in `nameless`.
-        copies: Number of transforms that `tracks` lacks, by topic, because no listener receives
-            them beside those of /tf.
+        copies: Number of transforms left out of `tracks`, by topic, because a listener of /tf does
+            not need them; see `without_copies`.
         nameless: Edges that no listener can use, because a frame name is empty or both names are
             equal.
         heard: Headers of messages, one stream for each topic and frame.
@@ -308,7 +308,10 @@ class Model:
         return edges
 
     def first_of(self, child: str) -> Track:
-        """Return the edge to a child that arrived first; tf2 of ROS 1 keeps its kind for ever."""
+        """Return the edge to a child that arrived first.
+
+        tf2 of ROS 1 keeps the kind of this edge, static or moving, for ever.
+        """
         return min(self.edges_above[child], key=lambda track: int(track.logs[0]))
 
     @cached_property
@@ -551,8 +554,8 @@ class Model:
         if not len(read):
             read, received = self._clock
             self.reference = (
-                "stamps count from 0 and there is no /clock: the freshest stream counts "
-                "as not late at all, and only differences are true"
+                "stamps count from 0 and there is no /clock: the latency of the fastest stream "
+                "is taken as 0, and only differences between latencies are right"
             )
         for stream in streams:
             logs = stream.logs

@@ -271,11 +271,12 @@ def _far_apart(track: Track, odometry: Track, topic: str, limits: Limits) -> Hit
         facts={
             "topic": topic,
             "edge": track.name,
-            "differs": "and tf are far apart about",
+            "differs": "and tf have positions far apart for",
             "apart": float(np.median(apart)),
             "turned": 0.0,
             "found": f"{metres(float(np.median(apart)))} apart (median of {len(others):,}); "
-            f"{'xyz'[axis]} is first {metres(float(mine))} in tf, {metres(float(theirs))} there",
+            f"{'xyz'[axis]} of the first is {metres(float(mine))} in tf, {metres(float(theirs))} "
+            "in the message",
         },
         severity=Severity.WARNING,
         fixes=(Fix(f"look at what the publisher of {track.name} uses for {'xyz'[axis]}"),),
@@ -316,7 +317,7 @@ def negative_variance(model: Model, limits: Limits) -> Iterator[Hit]:
     "placed up to one step off",
     causes=("a node that sends its last measurement at a higher rate than that of the sensor",),
     fixes=(
-        Fix("look how often its publisher gets a new pose, and stamp a pose when it was measured"),
+        Fix("check how often its publisher gets a new pose, and stamp a pose when it was measured"),
     ),
     limits={"share": 0.6, "placed": 0.45, "samples": 20, "metres": 0.01, "degrees": 2.0},
     because_of=(("edge", "frozen-stamp repeated-stamp publisher-conflict"),),
@@ -358,7 +359,7 @@ def repeated_pose(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _is_pose_of_robot(model: Model, track: Track) -> bool:
-    """Whether an edge is odometry, or the pose of a robot in a world frame, as of a tracker."""
+    """Whether an edge is odometry, or a robot's pose in a world frame, for example by a tracker."""
     if last_part(track.parent).startswith("odom"):
         return last_part(track.child) in BASES
     is_placed = is_world(track.parent) and not track.is_localisation
@@ -381,7 +382,7 @@ _STANDS = seconds(0.5)
     consequence="either the odometry or the pose in the map is wrong",
     fixes=(
         Fix(
-            "look whether the robot drove; if so, which pose the localiser computes, and from what"
+            "check whether the robot drove; if so, which pose the localiser computes, and from what"
         ),
     ),
     limits={"metres": 1.5, "share": 0.05},

@@ -24,11 +24,11 @@ Name = TypeVar("Name")
     rule="on half or more of the streams with {hz:g} Hz or more, nothing arrives for more than "
     "{seconds:g} s and {periods:g} periods. A topic of messages and a transform are among these "
     "streams. Afterwards the streams go on, with a gap in their stamps or with delayed data. A "
-    "constant difference between the clocks is subtracted first. Or no message at all arrives for "
-    "{again:g} s, {times:g} times, and messages on /clock then arrive in a burst. Beside an "
-    "outage, times of {short:g} s or more without arrivals on its streams are counted. If a static "
-    "transform is sent again with a new stamp, only then or up to 1 s later, the programs were "
-    "started again",
+    "constant difference between the clocks is subtracted first. A second case: {times:g} times, "
+    "no message at all arrives for {again:g} s, and messages on /clock then arrive in a burst. The "
+    "evidence also counts shorter times, of {short:g} s or more, without arrivals on the same "
+    "streams. If a static transform is sent again with a new stamp, during an outage or up to 1 s "
+    "later and at no other time, the programs were started again",
     headline="nothing arrived for {length:span} on {streams} of {of} streams{often}",
     detail="from {begin:moment} to {end:moment} (log times): {names}; {lost}",
     consequence="data stamped in this time arrived late, in a burst, or never",
@@ -114,7 +114,7 @@ class _Outage:
 _NETWORK = Fix("look at the network and the recorder at that time")
 """Remedy for an outage of unknown cause."""
 
-_RESTARTED = Fix("the programs were started again: look why they had stopped")
+_RESTARTED = Fix("the programs were started again: find out why they had stopped")
 """Remedy for an outage at whose end the static transforms are new."""
 
 
@@ -208,11 +208,11 @@ def _hole(stream: Track | Heard, begin: Stamp, end: Stamp) -> Duration:
 
 def _lost(outage: _Outage) -> str:
     """Return a clause about what became of the messages of an outage."""
-    lost = "all of it came afterwards"
+    lost = "all data of that time arrived afterwards"
     if any(outage.holes):
         wide = sum(map(bool, outage.holes))
-        lost = f"on {wide} of them data of that time never came (up to {span(max(outage.holes))})"
-    return f"{lost}; {several(outage.gone)} never came back" if outage.gone else lost
+        lost = f"on {wide} of them, data of that time is missing (up to {span(max(outage.holes))})"
+    return f"{lost}; {several(outage.gone)} never resumed" if outage.gone else lost
 
 
 def _shorter(worst: _Outage, outages: list[_Outage], limits: Limits) -> str:

@@ -28,16 +28,19 @@ check = checks_of(Area.VALUES)
     "rotation, and poses more than 0.25 m away, within 0.5 s. All such objects with one parent and "
     "one publisher together change to 0 0 0 and back 3 times or more",
     headline="{named} {concerned:is|are} sent as exactly 0 0 0 in {share:%} of "
-    "{concerned:its|their} samples, by turns with other poses",
+    "{concerned:its|their} samples, alternating with other poses",
     detail="{zeros} of {of} samples; the other poses are up to {away:m} from there",
     consequence="{named} {concerned:jumps|jump} to the origin of {parent} and back",
     fixes=(
-        Fix("look whether {sender} has a measurement then; without one, it should send nothing"),
+        Fix(
+            "check whether {sender} has a measurement at these times; without a measurement, it "
+            "should send nothing"
+        ),
     ),
     causes=("a detector without a depth at the place of the object",),
 )
 def placeholder_pose(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A pose of zeros is sent by turns with real poses."""
+    """A pose of zeros is sent alternately with real poses."""
     for tracks in with_placeholders(model):
         zeros = sum(int(np.count_nonzero(_is_zero(track))) for track in tracks)
         of = sum(len(track.by_stamp) for track in tracks)
@@ -106,9 +109,9 @@ def _is_zero(track: Track) -> Mask:
     "{seconds:g} s or more and {repeats:g} times or more. Then the frame jumps by {metres:g} m or "
     "more, at {times:g} times its speed after the jump or more. Its usual speed explains the "
     "distance of the jump in the time since the pose froze, and the frame moved before and after. "
-    "Or the pose is measured, which means that all seven numbers change in 95 % of its changes, "
-    "and it is repeated for {end:g} s or more, until its last sample, after it moved at {speed:g} "
-    "m/s or more, so fast that it would have stopped with {stop:g} m/s² or more. A note if a "
+    "Or a measured pose is repeated for {end:g} s or more, until its last sample. A pose counts as "
+    "measured if all seven numbers change in 95 % of its changes. Before, this pose moved at "
+    "{speed:g} m/s or more, so a real stop would need {stop:g} m/s² or more. A note if a "
     "measured pose is repeated {often:g} times or more, and each next step is as long as the time "
     "since the pose froze",
     headline="{where} {concerned:repeats its|repeat their} last pose for up to {longest:span}"
@@ -117,7 +120,8 @@ def _is_zero(track: Track) -> Mask:
     consequence="while the pose is frozen, lookups return an old pose under a new stamp",
     fixes=(
         Fix(
-            "look whether the publisher had a measurement then; without one, it should send nothing"
+            "check whether the publisher had a measurement at that time; without a measurement, it "
+            "should send nothing"
         ),
     ),
     causes=("a motion capture that lost its object and sends the last pose",),
@@ -183,8 +187,9 @@ class _Frozen:
         places: Indices of the publisher's samples, sorted by stamp, shape (n,).
         stamps: Stamps of these samples, nanoseconds, shape (n,).
         strides: Distance from each of these samples to the next, metres, shape (n - 1,).
-        froze: Place of the first sample with each pose but the first, shape (m,).
-        ends: Place of the last sample with this pose, shape (m,).
+        froze: For each time, the index in `places` of the first sample with the pose, shape (m,).
+            The publisher's first pose is left out.
+        ends: For each time, the index in `places` of the last sample with the pose, shape (m,).
     """
 
     track: Track
@@ -200,7 +205,7 @@ class _Frozen:
         Args:
             kind: Kind of the hit; hits of one kind are merged.
             rests: Mask of the times, shape (m,).
-            then: What follows, for the headline.
+            then: Clause for the headline about what happens after the pose froze.
             told: Further evidence.
             **given: Further facts.
         """
@@ -364,11 +369,12 @@ _STEADY = math.radians(20.0)
     "outlier",
     Severity.WARNING,
     rule="a pose jumps by more than {metres:g} m or {radians:g} rad, and by {times:g} times the "
-    "95 % quantile of all steps, or by more than {metres:g} m, at more than {speed:g} m/s and "
-    "{times:g} times the 95 % quantile of all speeds. At most {samples:g} samples and "
-    "{seconds:g} s later, it is back: the rest is at most {back:%} of the jump. Such jumps are "
-    "at most a share of {share:g} of all steps. Turns of 150° or more of a moving frame that "
-    "usually turns by less than 20° may be more, and last {periods:g} periods. Ten turns of 15° "
+    "95 % quantile of all steps. Or the pose jumps by more than {metres:g} m, at more than "
+    "{speed:g} m/s and {times:g} times the 95 % quantile of all speeds. At most {samples:g} "
+    "samples and {seconds:g} s later, the pose is back: the rest is at most {back:%} of the jump. "
+    "Such jumps are at most a share of {share:g} of all steps. Turns of 150° or more of a "
+    "moving frame that usually turns by less than 20° may be a larger share, and may last "
+    "{periods:g} periods. Ten turns of 15° "
     "or more at more than 1000°/s count too, if a body in a world frame usually turns by less "
     "than 1°. A note for one of three or more objects of one publisher that come and go, and for "
     "a part of a robot if no sensor message is in its frame. Not reported for a localiser",
@@ -440,7 +446,7 @@ def marker_fix(track: Track, turned: float | None = None) -> tuple[Fix, ...]:
         return ()
     if turned is not None and turned < _HALF_TURN:
         return ()
-    text = "look whether its markers were hidden, or look alike from two sides"
+    text = "check whether its markers were hidden, or look alike from two sides"
     return (Fix(f"if motion capture sends it, {text}"),)
 
 
@@ -485,7 +491,9 @@ def outliers(track: Track, limits: Limits) -> list[tuple[int, int]]:
 
 
 def _flickers(track: Track, turned: Floats) -> Mask | None:
-    """Return a mask of the turns of a measured body that no body makes; None without them.
+    """Return a mask of the turns that are too far and too fast for a real body.
+
+    Return None without such turns, and for an edge other than the measured pose of a body.
 
     Args:
         track: The edge.
@@ -512,7 +520,7 @@ _OFTEN = 10
 def _runs_away(
     track: Track, apart: Floats, turned: Floats, is_far: Mask, longest: float, limits: Limits
 ) -> list[tuple[int, int]]:
-    """Return the runs of samples between a jump away and a jump back, as `outliers` does.
+    """Return the runs of samples between a jump away and a jump back.
 
     Args:
         track: The edge.
@@ -521,6 +529,9 @@ def _runs_away(
         is_far: Mask of the steps that may be jumps away, shape (n,).
         longest: Maximum duration of a run, nanoseconds.
         limits: Thresholds of `outlier`.
+
+    Returns:
+        Indices into `track.by_stamp`: the first wrong sample, and the first sample after the run.
     """
     places = track.by_stamp
     found: list[tuple[int, int]] = []
@@ -543,10 +554,10 @@ def _runs_away(
 
 
 def _half_turns(apart: Floats, turned: Floats) -> Mask | None:
-    """Return a mask of the steps to the opposite side, and back; None if they may be motion.
+    """Return a mask of the steps that turn a body by about 180°; None if they may be real motion.
 
-    A body that moves, and else turns slowly, does not turn by 150° from one sample to the next. A
-    wheel, whose joint does not move, may do so.
+    A body that moves, and usually turns slowly, does not turn by 150° from one sample to the next.
+    A wheel, whose joint does not move, may do so.
 
     Args:
         apart: Distance of each step, metres, shape (n,).

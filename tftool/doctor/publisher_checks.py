@@ -103,10 +103,10 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
     "each track alone. Tracks of a frame that hardly moves may be nearer: half of the steps and "
     "{near_changes:g} or more are {near:g} m or longer, each track has a share of {near_share:g}, "
     "and the tracks are {near_times:g} times as far apart as 95 % of the steps in them. If samples "
-    "jump {near_changes:g} times or more, each time within 1 s of the last, and come at 1.5 times "
-    "the usual rate meanwhile, this time is also judged alone. A note "
-    "for a frame that only turns, unless one value returns again and again, and for one of three "
-    "or more objects of one publisher that come and go. A warning if the publishers are unknown, "
+    "jump {near_changes:g} times or more, each time within 1 s of the last jump, and come at 1.5 "
+    "times the usual rate meanwhile, this time is also judged alone. A note for one of three or "
+    "more objects of one publisher that come and go, and for a frame that only turns, unless one "
+    "value returns again and again. A warning if the publishers are unknown, "
     "if no frame is below this frame and no message is in it, or for a mount whose two values "
     "differ by less than {slight:g} m and {slight_degrees:g}°",
     headline="{named} {many:has|have} two {two:sources with |}different values{seen}",
@@ -338,7 +338,9 @@ def empty_message(model: Model, limits: Limits) -> Iterator[Hit]:
                 topics=(publisher.topic,),
                 publishers=(publisher.node,) if publisher.node else (),
                 severity=Severity.WARNING if is_blind else None,
-                fixes=(Fix("look whether its publisher saw an object at all"),) if is_blind else (),
+                fixes=(Fix("check whether its publisher saw an object at all"),)
+                if is_blind
+                else (),
                 since=int(transforms.log_times[own & empty].min()),
                 until=int(transforms.log_times[own & empty].max()),
                 count=without,

@@ -40,7 +40,7 @@ JUDGED_EMPTY = frozenset(
     consequence='lookups that follow the parents to the root fail: "The tf tree is invalid because '
     'it contains a loop."',
     fixes=(Fix("find the publishers: `{publishers} {tf_topic}`"),),
-    causes=("odom above body and body above odom at once",),
+    causes=("one node publishes body in odom, and another node publishes odom in body",),
     links=threads("rai-opensource/spot_ros2#374"),
 )
 def loop(model: Model, limits: Limits) -> Iterator[Hit]:
@@ -172,7 +172,9 @@ def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
                 "main_root": own.root,
                 "number": number,
                 "used": used,
-                "users": f"; used by {several(used)}" if used else "; no message is in it",
+                "users": f"; used by {several(used)}"
+                if used
+                else "; no message is in these frames",
                 "evidence": f"; {join.why}" if join is not None and join.why else "",
                 "join": None
                 if join is None or join.edge is None
@@ -185,9 +187,9 @@ def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _own_robot(model: Model, tree: Tree) -> Tree | None:
-    """Return the tree with a base frame whose root has the prefix of another tree's root.
+    """Return the first tree with a base frame whose root has the same prefix as the root of `tree`.
 
-    Return None without a prefix, and if a tree contains a base frame itself.
+    Return None if the root of `tree` has no prefix, or if `tree` contains a base frame.
     """
     own = prefix(tree.root)
     if not own or base_of(tree):
@@ -213,7 +215,10 @@ def nothing_says(model: Model, root: str, mount: str = "") -> Fix:
             f"are static, and not in the recording: {model.words['record']}"
         )
     if is_cut:
-        look = f"look whether the robot sends any: `{model.words['publishers']} /tf_static`"
+        look = (
+            "check whether the robot sends static transforms: "
+            f"`{model.words['publishers']} /tf_static`"
+        )
         measure = "; if nothing sends it, measure where it is, and publish it:" * bool(mount)
         return Fix(
             f"the recording has no static transforms, and one of them may join {root}: {look}; if "
@@ -415,7 +420,9 @@ def rep105_shape(model: Model, limits: Limits) -> Iterator[Hit]:
                 text = f"{held.name} never moves, while {track.name} moves by {metres(moved)}"
                 hit = _shape(model, held.edge, text, track.edge)
                 sender = ", ".join(held.nodes) or f"the publisher of {held.name}"
-                cure = f"look why {sender} moves {link} in {foot}, and not {foot} in {held.parent}"
+                cure = (
+                    f"find out why {sender} moves {link} in {foot}, and not {foot} in {held.parent}"
+                )
                 so = f"programs that use {foot} as the robot's frame see a robot that stands still"
                 yield replace(
                     hit,

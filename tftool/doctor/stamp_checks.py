@@ -131,7 +131,7 @@ def frozen_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def stands_still(stream: Track | Heard) -> bool:
-    """Whether the stamp of a stream does not change, which the check `frozen-stamp` reports.
+    """Whether a stream repeats one stamp; the check `frozen-stamp` reports such a stream.
 
     Advice about clocks and caches would be wrong for such a stream.
     """
@@ -245,9 +245,10 @@ def repeated_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _avoidable_spikes(track: Track) -> str:
-    """Return a clause about steps out and back that the last sample of each stamp does not have.
+    """Return a clause about jumps out and back that vanish if the last sample of a stamp is kept.
 
-    tf2 of ROS 1 noetic keeps the first sample of a stamp.
+    tf2 of ROS 1 noetic keeps the first of several samples with one stamp. The clause is empty if
+    there are few such jumps.
     """
     is_new = np.diff(track.sorted_stamps) > 0
     first = _count_spikes(track, track.by_stamp[np.append(True, is_new)])

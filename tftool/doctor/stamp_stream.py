@@ -138,7 +138,7 @@ class Track(Stream):
         self._transforms = transforms
 
     def stored_as(self, *, static: bool) -> "Track":
-        """Return the track as a listener has it that stores the edge as static or as moving."""
+        """Return the track as static or as moving: the kind as which a listener stores it."""
         if static is self.static:
             return self
         stored = Track(self._edge, self._transforms)

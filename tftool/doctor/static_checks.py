@@ -30,7 +30,7 @@ check = checks_of(Area.PUBLISHERS)
     causes=(
         "SLAM beside the robot description, with other parents",
         "an old tf static publisher beside a new one",
-        "use_tf_static switched between versions",
+        "the default of use_tf_static changed between two versions",
     ),
     links=threads("TixiaoShan/LIO-SAM#521"),
 )
@@ -92,7 +92,7 @@ _SAME_MOUNT = 5e-4
 
 
 def _changes(model: Model, turns: int, history: int) -> str:
-    """Return a clause about the changes of kind, which ROS 1 ignores.
+    """Return a clause about changes between static and moving; empty in ROS 1, which ignores them.
 
     Args:
         model: Model of the evidence.

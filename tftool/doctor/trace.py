@@ -198,7 +198,11 @@ class LookupTrace:
 
     @staticmethod
     def newest_without_last(stamps: Stamps) -> Stamp:
-        """Return the newest stamp without the last one to arrive; a single stamp is returned."""
+        """Return the newest stamp before the last sample arrived; for a single sample, its stamp.
+
+        Args:
+            stamps: Stamps in order of arrival, nanoseconds, shape (n,).
+        """
         return int(stamps[:-1].max(initial=stamps[0]))
 
     def way(self) -> list[Track] | None:

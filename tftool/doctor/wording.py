@@ -249,8 +249,8 @@ def least_rate(link: str, period: int, later: int, wait: float) -> str:
     told = f"a {wait * 1e3:g} ms wait"
     if left <= 0:
         return (
-            f"no rate is enough for {told}: the transforms arrive {later / 1e6:.0f} ms (median) "
-            "later after their stamps than the messages"
+            f"no rate is enough for {told}: from stamp to arrival, the transforms take "
+            f"{later / 1e6:.0f} ms (median) longer than the messages"
         )
     needed = math.ceil(10 / left) / 10
     # A rate that is only a few percent higher changes nothing.
