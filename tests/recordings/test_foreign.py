@@ -167,3 +167,25 @@ def test_a_type_that_cannot_be_understood_is_left_out(tmp_path):
     with open_recording(file) as recording:
         assert len(recording.transforms) == 0
         assert "'/poses' is left out" in recording.damage[0]
+
+
+@pytest.mark.parametrize(("tf_topics", "parents"), [((), {"map"}), (("/poses",), {"vicon"})])
+def test_single_transforms_beside_tf_are_read_only_on_request(tmp_path, tf_topics, parents):
+    single, listed = "geometry_msgs/msg/TransformStamped", "tf2_msgs/msg/TFMessage"
+    own = message(single)
+    own.header.frame_id = "vicon"
+    stream = io.BytesIO()
+    writer = Writer(stream)
+    writer.start()
+    for topic, kind, sent in (
+        ("/tf", listed, ROS2.types[listed]([message(single)])),
+        ("/poses", single, own),
+    ):
+        text = ROS2.generate_msgdef(kind, ros_version=2)[0]
+        schema = writer.register_schema(kind, "ros2msg", text.encode())
+        channel = writer.register_channel(topic, "cdr", schema)
+        writer.add_message(channel, STAMP, bytes(ROS2.serialize_cdr(sent, kind)), STAMP)
+    writer.finish()
+    (tmp_path / "a.mcap").write_bytes(stream.getvalue())
+    with open_recording(tmp_path / "a.mcap", tf_topics=tf_topics) as recording:
+        assert recording.buffer.parents("base") == parents

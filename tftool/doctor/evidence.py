@@ -452,15 +452,7 @@ def without_copies(evidence: Evidence) -> tuple[tuple[Edge, ...], dict[str, int]
         if left.any():
             for number in senders[left].tolist():
                 copies[topics[number]] += 1
-            kept = ~left
-            slashed = min(edge.slashed, int(np.count_nonzero(kept)))
-            edge = replace(
-                edge,
-                slashed=slashed,
-                records=edge.records[kept],
-                messages=edge.messages[kept],
-                kept=0,
-            )
+            edge = edge.chosen(~left)
         if len(edge):
             edges.append(edge)
     return tuple(edges), copies

@@ -158,6 +158,12 @@ class Recorded:
         )
 
     @property
+    def single_topics(self) -> frozenset[str]:
+        """Names of the topics whose messages are single transforms (TransformStamped)."""
+        kind = "geometry_msgs/TransformStamped"
+        return frozenset(s.topic for s in self._container.streams if short_type(s.type) == kind)
+
+    @property
     def publishers(self) -> tuple[Publisher, ...]:
         """Return all publishers (streams of messages), sorted by topic and node."""
         return tuple(sorted(set(self._senders), key=lambda one: (one.topic, one.node)))

@@ -108,6 +108,16 @@ class Edge:
         kind = "static" if self.static else "dynamic"
         return f"<Edge: {len(self)} {kind} transforms of {self.child!r} in {self.parent!r}>"
 
+    def chosen(self, mask: npt.NDArray[np.bool_]) -> "Edge":
+        """Return the edge with some of its transforms.
+
+        Args:
+            mask: Whether to keep each transform, shape (n,).
+        """
+        slashed = min(self.slashed, int(np.count_nonzero(mask)))
+        records, messages = self.records[mask], self.messages[mask]
+        return Edge(self.parent, self.child, self.static, slashed, records, messages)
+
     @property
     def stamps(self) -> Stamps:
         """Stamps of all transforms, nanoseconds, shape (n,); a view."""

@@ -48,7 +48,7 @@ from tftool.recordings.description_frames import (
     read_joint_states,
 )
 from tftool.recordings.find import Found, Kind, find
-from tftool.recordings.tf_topics import implying, joined, transforms_on
+from tftool.recordings.tf_topics import implying, joined, transforms_on, without_single
 from tftool.robots.robot_model import Robot
 from tftool.robots.urdf import UnexpandedXacro
 
@@ -241,12 +241,15 @@ class Recording:
         """Buffer with all transforms, in which lookups work at any recorded time.
 
         The last value of a static transform is valid at all times. Transforms that tf2 would
-        refuse, and moving transforms with stamp 0, are left out; see `oddities`. A robot
-        description and recorded joint states give the poses of further frames; see `described`.
+        refuse, and moving transforms with stamp 0, are left out; see `oddities`. Single transforms
+        (TransformStamped) are left out for frames that tf topics have, too. A robot description and
+        recorded joint states give the poses of further frames; see `described`.
         """
         oddities = self._oddities
         buffer = Buffer(NO_LIMIT, log=_silent, max_frames=MOST_FRAMES)
         transforms = self.transforms
+        if not self._tf_topics:
+            transforms = without_single(transforms, self.source.single_topics)
         moving: dict[str, list[Edge]] = {}
         static: dict[str, list[Edge]] = {}
         for edge in transforms.edges:

@@ -134,6 +134,28 @@ def implying(topics: Iterable[RecordedTopic]) -> tuple[RecordedTopic, ...]:
     return tuple(one for one in topics if one.type in IMPLYING and one.encoding in ("cdr", "ros1"))
 
 
+def without_single(found: Transforms, topics: Collection[str]) -> Transforms:
+    """Leave out transforms of topics of type TransformStamped, for frames that tf topics have, too.
+
+    A motion capture often sends each pose on /tf and on a topic of its own, which no tf listener
+    receives.
+
+    Args:
+        found: All transforms of a recording.
+        topics: Names of the topics of type TransformStamped.
+    """
+    is_single = np.array([one.topic in topics for one in found.publishers], dtype=np.bool_)
+    if not is_single.any():
+        return found
+    masks = [is_single[found.senders_of(edge)] for edge in found.edges]
+    sent = {edge.child for edge, mask in zip(found.edges, masks, strict=True) if not mask.all()}
+    edges = (
+        edge.chosen(~mask) if edge.child in sent and mask.any() else edge
+        for edge, mask in zip(found.edges, masks, strict=True)
+    )
+    return replace(found, edges=tuple(edge for edge in edges if len(edge)))
+
+
 def joined(sent: Transforms, implied: Transforms) -> Transforms:
     """Merge transforms from tf topics with transforms from odometry and poses.
 
