@@ -86,7 +86,7 @@ def test_links_that_tf_lacks_are_told_with_the_reason_of_their_joint():
     assert finding.frames == ("camera", "arm_link")
     assert finding.evidence == (
         "camera: fixed to base_link: no static transform names it",
-        "arm_link: moved by arm (revolute): no state of it was published",
+        "arm_link: moved by arm (revolute): no joint state has its position",
     )
     # A frame of the description is not an unknown frame, even if messages use it.
     made.hears("/image", "camera", kind="sensor_msgs/CompressedImage")
@@ -199,7 +199,7 @@ def test_odometry_of_a_pair_that_tf_does_not_join_is_a_note():
     made.odometry = says(drives, child="laser")
     finding = found(made, "odometry-tf-mismatch")
     assert (finding.severity, finding.edges) == (Severity.NOTE, (("odom", "laser"),))
-    assert finding.evidence == ("/odom says laser in odom; in tf laser hangs from base_link",)
+    assert finding.evidence == ("/odom says laser in odom; in tf, laser has the parent base_link",)
     assert "disagree" not in finding.message
 
     # The message's child is another frame of the base, a parent or child of the frame in tf.

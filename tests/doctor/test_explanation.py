@@ -84,7 +84,7 @@ def test_a_frame_with_a_slash_is_used_by_its_messages():
 
     found = asked(made, "base_link", "camera_frame", 4.0)
 
-    assert "/camera/info says /camera_frame, 80 times" in found.why
+    assert "/camera/info names /camera_frame, 80 times" in found.why
     assert found.remedies[0].command.endswith("--child-frame-id camera_frame")
     assert found.remedies[1].text.startswith('and set frame_id to "camera_frame"')
 
@@ -99,7 +99,9 @@ def test_a_mount_that_odometry_displaced_is_mended_at_the_end_of_the_odometry():
 
     found = asked(made, "odom", "r1/base_link", 4.0)
 
-    assert found.remedies[0].text.startswith("let base_link in odom end at r1/base_link")
+    assert found.remedies[0].text.startswith(
+        "publish r1/base_link, the root of the mounts, in odom"
+    )
     (doctor,) = [one for one in made.judged().findings if one.id == "static-and-dynamic"]
     assert doctor.fixes[0].text == found.remedies[0].text
 
@@ -355,8 +357,8 @@ def test_a_question_for_the_latest_is_one_for_the_last_moment_in_common():
     ("joint", "joints", "told"),
     [
         ('type="continuous"', frozenset(), "no joint state contains 'lift'"),
-        ('type="continuous"', frozenset({"lift"}), "nothing of robot_state_publisher arrived"),
-        ('type="fixed"', None, "which is fixed: nothing of robot_state_publisher arrived"),
+        ('type="continuous"', frozenset({"lift"}), "no transform of robot_state_publisher arrived"),
+        ('type="fixed"', None, "which is fixed: no transform of robot_state_publisher arrived"),
         ('type="floating"', None, "which is floating: robot_state_publisher skips it"),
     ],
 )

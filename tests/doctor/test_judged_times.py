@@ -366,7 +366,7 @@ def test_a_backlog_that_arrives_when_the_recorder_starts_is_not_late():
 
 
 def test_two_values_of_a_static_that_arrive_together_are_kept_by_arrival():
-    for apart, consequence in ((0.01, "reaches it last"), (3.0, "when the new one arrives")):
+    for apart, consequence in ((0.01, "reaches it last"), (3.0, "when the new value arrives")):
         made = robot()
         made.static("base_link", "camera")
         made.static("base_link", "camera", (0.2, 0.0, 0.2, *NO_TURN), at=apart)

@@ -274,7 +274,7 @@ def test_a_pose_of_motion_capture_that_is_sent_twice_moves_in_steps(speed, sever
         made.sent("world", "drone", 0.01 * tick, (speed * 0.02 * (tick // 2), 0.0, 1.0, *NO_TURN))
     finding = found(made, "repeated-pose")
     assert finding.severity is severity
-    assert "50 % of the samples repeat the pose before" in finding.message
+    assert "50 % of the samples repeat the previous pose" in finding.message
 
 
 @pytest.mark.parametrize("rests", [False, True])
@@ -289,7 +289,7 @@ def test_the_time_of_a_jump_begins_when_a_repeated_pose_was_new(rests):
     made.moving("odom", "base_link", 200.0, pose)
     finding = found(made, "teleport")
     assert finding.message.endswith("within 5 ms" if rests else "within 50 ms")
-    assert ("the pose before is sent 10 times" in finding.evidence[0]) is not rests
+    assert ("the previous pose is sent 10 times" in finding.evidence[0]) is not rests
 
 
 @pytest.mark.parametrize("late", [0.02, 0.5])
@@ -297,7 +297,7 @@ def test_a_topic_that_begins_with_a_jump_is_named(late):
     made = robot(odometry=False, scans=False)
     made.moving("odom", "base_link", pose=lambda t: (3.0 if t >= 4.0 else 0.0, 0.0, 0.0, *NO_TURN))
     made.hears("/wheels", "odom", 20.0, "nav_msgs/Odometry", begin=4.0 - late, latency=0.005)
-    told = "; the first message of /wheels arrived 20 ms before it"
+    told = "; the first message of /wheels arrived 20 ms before the jump"
     assert found(made, "teleport").evidence[0].endswith(told) is (late == 0.02)
 
 

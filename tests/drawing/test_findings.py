@@ -47,7 +47,7 @@ def test_a_report_says_what_was_read_what_is_wrong_what_is_fine_and_how_much():
         "",
         "warning  teleport: base_link in odom jumps 2.51 m within 20 ms",
         "       base_link in odom: 2.51 m and 0° at 1750000005.020, once; usual 0.5 m/s",
-        "       so:  things placed before and after the jump do not fit together; REP-105 "
+        "       so:  data placed before and after the jump does not fit together; REP-105 "
         "wants this transform "
         "continuous",
         "       fix: compare the jump with the sensors; before it:",

@@ -88,11 +88,11 @@ def clock_mixture(model: Model, limits: Limits) -> Iterator[Hit]:
     apart = own_trees(model, odd, others)
     if len(harmless) == len(odd):
         severity = Severity.NOTE
-        so = "none while programs place it by its frame alone, as for a map"
+        so = "none while programs use only its frame and not its stamp, as for a map"
         if all(model.rests(one.frame) for one in harmless):
             so = "none while only static transforms, which hold at any time, place its frame"
     elif apart:
-        so = "lookups within each tree succeed; nothing of one tree can be placed in the other"
+        so = "lookups within each tree succeed; data of one tree cannot be placed in the other"
         severity = Severity.WARNING
         if any(last_part(track.parent) in BASES for track in tracks):
             pass  # the robot's own node sends them
@@ -577,7 +577,7 @@ def _groups_apart(model: Model, limits: Limits) -> Iterator[Hit]:
                 "sources": "",
                 "found": f"arrives {span(groups[-1][0][0] - groups[0][0][0])} later than the "
                 "others, steadily: a delay in its driver, or another clock",
-                "so": "a delay is waited for; a clock that is off stays off",
+                "so": "a timeout helps against a delay, but not against a wrong clock",
             },
             fixes=(COMPARE_CLOCKS,),
             alone=True,

@@ -144,8 +144,8 @@ def static_not_latched(model: Model, limits: Limits) -> Iterator[Hit]:
     "recorder received the static late",
     headline="{where} {concerned:arrives|arrive} later than messages that need {concerned:it|them}",
     detail="{edge}: {late:span} late; before it: {missed}",
-    consequence="a listener that ran from the start could not place these messages, although the "
-    "recording can",
+    consequence="a listener that ran from the start could not place these messages, although a "
+    "reader of the whole recording can",
     causes=("a driver that publishes its mount when it is ready",),
     links=threads("ros/geometry2#181"),
     limits={"seconds": 1.0},
@@ -519,8 +519,8 @@ def _cures(heard: Heard, waits: Waits, wait: float) -> tuple[Fix, ...]:
     often = often if waits.is_short_without([link], wait) else ""
     mounts = [one for one in waits.links if not one.moves and not _is_robot(one)]
     mount = Fix(
-        f"or, if they are mounts, as they never moved: send {several([m.name for m in mounts])} on "
-        "/tf_static"
+        f"or send {several([m.name for m in mounts])} on /tf_static, if these "
+        "transforms, which never moved, are mounts"
     )
     is_mount = link in mounts and waits.is_short_without(mounts, wait)
     wait_for = (
@@ -554,7 +554,8 @@ def _is_robot(link: Track) -> bool:
     headline="{topic} arrives later than the cache time",
     detail="{topic}: {late:span} after its stamp (median), {worst:span} at most; the buffer "
     "keeps {cache:span}",
-    consequence='"extrapolation into the past" in a listener, which has dropped the transforms',
+    consequence='lookups fail with "extrapolation into the past": the buffer has dropped the '
+    "transforms",
     causes=(
         "a slow detector",
         "a consumer that is behind",

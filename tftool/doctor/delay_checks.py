@@ -233,7 +233,7 @@ def _late(model: Model, stream: "Track | Heard") -> Hit:
         if soon and not shown and np.isin(stream.stamps, other.stamps).mean() > 0.5:
             shown = (
                 f"{other.topic} has the same stamps, {span(other.median_latency)} late: these "
-                "messages wait in their publisher or on their way, whatever the clocks are"
+                "messages wait in their publisher or on their way, and no clock is the cause"
             )
     facts = {"what": stream.name, "late": stream.median_latency, "varies": varies, **_median(model)}
     if isinstance(stream, Track) and not shown and 2 * (high - low) < stream.median_latency:

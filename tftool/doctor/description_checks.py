@@ -29,7 +29,7 @@ _STATES = "find out who publishes joint states: `{publishers} {states}`"
     "base frame",
     headline="the robot description cannot be read",
     detail="{mistakes}",
-    consequence="robot_state_publisher refuses it or publishes a part; nothing is compared with it",
+    consequence="robot_state_publisher refuses it or publishes a part; the doctor does not use it",
     fixes=(Fix("correct the description: `tftool info FILE` shows each mistake with its line"),),
     causes=(
         "a link was renamed and its joint was not",
@@ -166,7 +166,7 @@ def urdf_frame_unpublished(model: Model, limits: Limits) -> Iterator[Hit]:
         elif joint.type == "floating":
             reason = f"floating in {joint.parent}: robot_state_publisher leaves it out"
         else:
-            reason = f"moved by {joint.name} ({joint.type}): no state of it was published"
+            reason = f"moved by {joint.name} ({joint.type}): no joint state has its position"
         yield Hit(
             edges=() if joint is None else ((model.prefix + joint.parent, frame),),
             frames=(frame,),

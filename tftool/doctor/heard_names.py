@@ -60,7 +60,7 @@ def unknown_frame(model: Model, limits: Limits) -> Iterator[Hit]:
         alike = _fitting(model, heards[0].type)
         hint = f"; in tf, {' and '.join(alike)} fits and no message uses it" if alike else ""
         if near and not alike:
-            hint = f"; near: {', '.join(near)}"
+            hint = f"; similar names in tf: {', '.join(near)}"
         if _is_scoped(model, name):
             hint += "; this is a simulator's scoped name"
         robots = [] if is_world(name) else _sharing(heards)

@@ -35,7 +35,7 @@ check = checks_of(Area.VALUES)
     "speed from the last pose before the gap is below {speed:g} m/s, and the turn is no jump",
     headline="{named}",
     detail="{edge}: {jump:m} and {turn:deg} at {at:moment}, {count:times}{others}{usual}{after}",
-    consequence="things placed before and after the jump do not fit together{also}",
+    consequence="data placed before and after the jump does not fit together{also}",
     causes=(
         "encoder overflow",
         "a reset of the filter",
@@ -138,7 +138,7 @@ def _jump(model: Model, track: Track, places: Places, limits: Limits) -> Hit | N
         new = int(before[-1]) + 1
         since = int(stamps[worst + 1] - stamps[new])
         if within < since <= 3 * np.median(np.diff(stamps[changes])):
-            within, told = since, f"; the pose before is sent {worst + 1 - new} times"
+            within, told = since, f"; the previous pose is sent {worst + 1 - new} times"
     how = f" within {span(within)}"
     first = "" if topic else _first_message(model, int(track.logs[others[worst]]))
     return hit_of(
@@ -371,7 +371,7 @@ def _first_message(model: Model, jump: Stamp) -> str:
         since = jump - int(heard.logs[0])
         is_position = last_part(heard.type) in ("NavSatFix", "Odometry") or "Pose" in heard.type
         if is_position and 0 <= since < _SOON and heard.logs[0] > model.start + WARM_UP:
-            return f"; the first message of {heard.topic} arrived {span(since)} before it"
+            return f"; the first message of {heard.topic} arrived {span(since)} before the jump"
     return ""
 
 

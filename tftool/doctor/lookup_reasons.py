@@ -148,11 +148,13 @@ def _described(model: Model, name: str) -> str | None:
     if joint.type == "floating":
         return f"{told}, which is floating: robot_state_publisher skips it"
     if not joint.moves:
-        return f"{told}, which is fixed: nothing of robot_state_publisher arrived"
+        return f"{told}, which is fixed: no transform of robot_state_publisher arrived"
     leader = robot.leader(joint.name, states or ())
     if states is None or leader not in states:
         return f"{told}, whose position is unknown: no joint state contains '{leader}'"
-    return f"{told}, and joint states have its position: nothing of robot_state_publisher arrived"
+    return (
+        f"{told}, and joint states have its position: no transform of robot_state_publisher arrived"
+    )
 
 
 def _unknown(trace: LookupTrace, name: str) -> Reason:
@@ -160,11 +162,7 @@ def _unknown(trace: LookupTrace, name: str) -> Reason:
     says = [heard for heard in model.heard if heard.frame.removeprefix("/") == name]
     slashed = [heard for heard in says if heard.frame != name]
     why = [f"no transform contains the frame {name}"]
-    why += [
-        f"{heard.topic} says {heard.frame if heard in slashed else 'it'}, {len(heard.stamps):,} "
-        "times"
-        for heard in says
-    ]
+    why += [f"{heard.topic} names {heard.frame}, {len(heard.stamps):,} times" for heard in says]
     both = {trace.question.target, trace.question.source} - {name} - model.frames
     why += [f"no transform contains {other} either" for other in both]
     described = _described(model, name)

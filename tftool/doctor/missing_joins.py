@@ -54,8 +54,8 @@ def proposed_join(model: Model, main: Tree, lesser: Tree) -> Join | None:
             return found
     if _are_two_robots(main, lesser):
         text = (
-            f"two robots: give both a frame in common, as a map that the localiser of each places "
-            f"its root in ({main.root}, {lesser.root})"
+            "two robots: connect both to one frame, such as a map in which the localiser of each "
+            f"robot publishes the robot's root ({main.root}, {lesser.root})"
         )
         return Join(None, "each of the two trees is a robot of its own", Fix(text))
     for tree, other in ((lesser, main), (main, lesser)):
@@ -167,14 +167,13 @@ def _in_odometry(model: Model, tree: Tree, other: Tree) -> Join | None:
             continue
         by = ", ".join(Track(edge, odometry).topics)
         why = f"{len(edge):,} Odometry messages ({by}) say {edge.child} in {edge.parent}"
-        mend = f"let the publisher of {by}, or a filter that uses them, do it"
+        mend = f"let the publisher of {by}, or a filter that uses the messages, publish it"
         if edge.child in model.parents:
             # The odometry's own edge would give the child a second parent.
             held = model.parents[edge.child].parent
             mend = f"{edge.child} has the parent {held}, so publish {other.root} in {edge.parent}"
         fix = Fix(
-            f"{why}, and nothing publishes it as a transform: {mend}; to use the messages "
-            "meanwhile:",
+            f"{why}, and nothing publishes this transform: {mend}; to use the messages meanwhile:",
             f"tftool echo {quoted(edge.parent)} {quoted(edge.child)} RECORDING --with-odometry",
         )
         return Join((edge.parent, edge.child), why, fix, guess=False)
@@ -218,7 +217,7 @@ def ends_at_the_root(model: Model, moving: Sequence[Track], statics: Sequence[Tr
     if {track.parent for track in moving} & {parent, *above}:
         return None
     return Fix(
-        f"let {moving[0].name} end at {root}, the root of the mounts, instead of "
+        f"publish {root}, the root of the mounts, in {moving[0].parent} instead of "
         f"{moving[0].child}, or leave {parent} out of the mounts"
     )
 
@@ -239,7 +238,7 @@ def _localised(tree: Tree, other: Tree) -> Join | None:
     if not maps:
         return None
     why = f"REP-105 has a localiser publish {tree.root} in {maps[0]}"
-    fix = Fix(f"{why}: check whether one runs, and which frames it publishes")
+    fix = Fix(f"{why}: check whether a localiser runs, and which frames it publishes")
     return Join((maps[0], tree.root), why, fix)
 
 

@@ -47,9 +47,9 @@ def leading_slash(model: Model, limits: Limits) -> Iterator[Hit]:
             track,
             {
                 "count": track.slashed,
-                "found": "two leading slashes: no query can reach it"
+                "found": "two leading slashes: no lookup can name this frame"
                 if twice
-                else "a leading slash, which tf2 strips",
+                else "a leading slash, which tf2 removes",
             },
             since=None,
             topics=track.topics,
@@ -276,7 +276,7 @@ def namespaced_topic(model: Model, limits: Limits) -> Iterator[Hit]:
     first = (whole or odd)[0]
     prefix = first.rsplit("/", 1)[0]
     remap = Fix(
-        "a listener hears them with:",
+        "start a listener that receives them with:",
         model.words["remap"].format(moving=first, static=f"{prefix}/tf_static"),
     )
     if not whole:

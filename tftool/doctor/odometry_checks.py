@@ -32,7 +32,7 @@ check = checks_of(Area.VALUES)
     consequence="programs that use the message and programs that use tf may see the robot in "
     "different places",
     causes=(
-        "the message is the wheels', the transform a filter's",
+        "the message has the pose of the wheels, the transform that of a filter",
         "the filter's publish_tf is off and another node sends the transform",
     ),
     limits={
@@ -89,15 +89,13 @@ def _is_same_base(model: Model, odometry: Track) -> bool:
 
 def _no_such_transform(model: Model, odometry: Track, topic: str) -> Hit:
     above = model.parents.get(odometry.child)
-    hangs = (
-        f"in tf {odometry.child} hangs from {above.parent}" if above else "in tf it has no parent"
-    )
+    held = f"the parent {above.parent}" if above else "no parent"
     return hit_of(
         odometry,
         {
             "topic": topic,
             "differs": "and tf connect other frames:",
-            "found": f"{topic} says {odometry.name}; {hangs}",
+            "found": f"{topic} says {odometry.name}; in tf, {odometry.child} has {held}",
         },
         since=None,
         frames=odometry.edge,
@@ -202,7 +200,7 @@ def _mirrored(track: Track, odometry: Track, topic: str, limits: Limits) -> Hit 
     fits = f"; its motion fits its yaw only in {right}" if wrong else ""
     cure = f"look at the sign of y in the publisher of {wrong}"
     if not wrong:
-        cure = "drive forward at a yaw of 90°: y must increase; the other one is wrong"
+        cure = "drive forward at a yaw of 90°: y must increase in tf and in the message"
     return Hit(
         edges=(track.edge,),
         topics=odometry.topics,
@@ -291,7 +289,7 @@ def _far_apart(track: Track, odometry: Track, topic: str, limits: Limits) -> Hit
     "for -1, which some drivers send if the variance is unknown",
     headline="{where} {concerned:has|have} negative variances",
     detail="{topic}: {count} of {of} messages, {least:.3g} at least",
-    consequence="no variance is negative: a filter that uses these messages may diverge",
+    consequence="a variance cannot be negative: a filter that uses these messages may diverge",
     fixes=(Fix("look at how its publisher computes the covariance: `{publishers} {topic}`"),),
     needs=("odometry",),
 )
@@ -310,7 +308,7 @@ def negative_variance(model: Model, limits: Limits) -> Iterator[Hit]:
     "among {samples:g} changes of the pose or more. A warning if the median change is {metres:g} m "
     "or {degrees:g}° or more",
     headline="{where} {concerned:moves|move} in steps: while the robot moves, {repeated:%} of the "
-    "samples repeat the pose before",
+    "samples repeat the previous pose",
     detail="{edge}: {moved:,} new poses in {samples:,} samples; by the stamps, a new pose every "
     "{every:span}, {jump:m} and {turn:deg} further (medians; 5 % turn by {far:deg} or more)",
     consequence="between two samples, the robot seems to stand or to move too fast: sensor data is "
@@ -377,7 +375,7 @@ _STANDS = seconds(0.5)
     "the map, a localiser that changes map to odom keeps the robot within a share of "
     "{share:g} of this distance, for 90 % of the time",
     headline="{child} stays within {stays:m} in {map}, although it goes {drives:m} in {odom}",
-    detail="{edge}: it changes against the odometry; {child} is that close to its "
+    detail="{edge} changes in the opposite direction of the odometry; {child} is that close to its "
     "median position for 90 % of the time",
     consequence="either the odometry or the pose in the map is wrong",
     fixes=(

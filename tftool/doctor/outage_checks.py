@@ -33,7 +33,7 @@ Name = TypeVar("Name")
     detail="from {begin:moment} to {end:moment} (log times): {names}; {lost}",
     consequence="data stamped in this time arrived late, in a burst, or never",
     causes=(
-        "a network that was gone",
+        "a network that was down",
         "a recorder or a disk that hung",
     ),
     limits={"seconds": 2.0, "periods": 10, "hz": 1.0, "again": 0.2, "times": 10, "short": 0.4},
@@ -284,7 +284,7 @@ def _receiver_stalls(model: Model, limits: Limits) -> Hit | None:
             "streams": len(streams) + 1,
             "of": len(streams) + 1,
             "names": ["/clock", *(one.name for one in streams)],
-            "lost": "/clock went on meanwhile, and came in a burst afterwards: the recorder, its "
+            "lost": "/clock continued meanwhile, and came in a burst afterwards: the recorder, its "
             "computer or the network stalled",
             "often": f", again and again: {len(places)} times",
         },

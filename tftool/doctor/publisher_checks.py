@@ -40,7 +40,7 @@ check = checks_of(Area.PUBLISHERS)
     causes=(
         "visual odometry or SLAM publishes odom to base_link beside the robot description",
         "a driver's base frame is a link below the root",
-        "a calibration is published the wrong way round",
+        "a calibration is published with parent and child exchanged",
     ),
     links=threads(
         "stereolabs/zed-ros-wrapper#447",
@@ -80,7 +80,7 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
             "root": roots[0] if roots[0] != child else tracks[0].parent,
             "so": "fails meanwhile"
             if len(set(roots)) > 1
-            else "gets another way, and perhaps another pose",
+            else "gets another path, and perhaps another pose",
         },
         severity=None if len(set(roots)) > 1 else Severity.WARNING,
         fixes=(find_publishers(tracks),),

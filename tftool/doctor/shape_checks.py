@@ -437,24 +437,24 @@ def rep105_shape(model: Model, limits: Limits) -> Iterator[Hit]:
             above = parent_of.get(base, "")
             chain = [track.parent for track in model.above(base)]
             if above in named["map"] and not set(named["odom"]) & set(chain):
-                found = f"{base} hangs from {above}, beside odom"
+                found = f"{base} is a child of {above}, beside odom"
                 for odom in named["odom"]:
                     track = model.parents.get(odom)
                     if track is not None and not track.moves and len(model.below(odom)) == 1:
-                        found += f"; {track.name} never moves, and nothing hangs from {odom}"
+                        found += f"; {track.name} never moves, and {odom} has no children"
                 yield _shape(model, (above, base), found)
             for odom in named["odom"]:
                 if parent_of.get(odom) == base and set(chain) & set(named["map"]):
-                    yield _shape(model, (base, odom), f"{odom} hangs from {base}, below map")
+                    yield _shape(model, (base, odom), f"{odom} is a child of {base}, below map")
     for one in named["map"]:
         chain = [track.parent for track in model.above(one)]
         if set(chain) & set(named["odom"]):
-            yield _shape(model, (chain[0], one), f"{one} hangs from {chain[0]}, below odom")
+            yield _shape(model, (chain[0], one), f"{one} is a child of {chain[0]}, below odom")
     for foot in named["base_footprint"]:
         for link in named["base_link"]:
             above = parent_of.get(foot, "")
             if above in named["odom"] and parent_of.get(link) == above:
-                text = f"{foot} and {link} both hang from {above}"
+                text = f"{foot} and {link} are both children of {above}"
                 yield _shape(model, (above, link), text, (above, foot))
 
 

@@ -104,15 +104,15 @@ def frozen_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
             "lasted": lasted,
         }
         if isinstance(one, Track):
-            facts["so"] = "lookups at later times refuse while the stamp does not change"
+            facts["so"] = "lookups at later times fail while the stamp does not change"
             if count == len(one.stamps):
-                facts["so"] = "lookups at any other time refuse: the buffer holds only that stamp"
+                facts["so"] = "lookups at any other time fail: the buffer holds only that stamp"
         elif one.frame not in model.frames or model.rests(one.frame):
             continue
         else:
             facts["so"] = (
-                "each is placed where its frame was at that time, and refused once the cache has "
-                "forgotten it"
+                "each message is placed where its frame was at that stamp; its lookup fails once "
+                "the cache has dropped this time"
             )
         # A result that is sent again is old on purpose, and a marker is only drawn.
         is_sensor = isinstance(one, Track) or one.type.startswith("sensor_msgs/")

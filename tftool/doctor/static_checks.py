@@ -226,8 +226,8 @@ def _values_of_statics(model: Model, limits: Limits) -> Iterator[tuple[int, floa
                     ),
                     "so": "each listener keeps the value that reaches it last"
                     if is_sudden
-                    else "everything placed with the old value moves when the new one arrives, "
-                    "also in the past",
+                    else "when the new value arrives, all data placed with the old value "
+                    "moves, also past data",
                 },
                 since=int(track.logs[changes[0]]),
                 until=int(track.logs[changes[-1]]),

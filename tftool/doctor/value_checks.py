@@ -152,7 +152,7 @@ def _fate(model: Model, track: Track, place: int, severity: Severity) -> tuple[s
     "{metres:g} m. A note if no message of a sensor is in the optical frame",
     headline="{where} {concerned:does|do} not have optical axes",
     detail="{edge}: {off:.3g}° off",
-    consequence="images and clouds in it are rotated, if the name is right",
+    consequence="images and clouds in this frame are rotated, if the name is right",
     causes=("the optical frame was given the axes of the body",),
     links=(
         REP103,
@@ -232,7 +232,7 @@ def image_not_optical(model: Model, limits: Limits) -> Iterator[Hit]:
             heard,
             {
                 "frame": heard.frame,
-                "axes": ", whose z looks up as a body's does" if is_body else "",
+                "axes": ", whose z axis points up, as in a body frame" if is_body else "",
             },
             since=None,
             confidence=Confidence.CERTAIN if is_body else Confidence.POSSIBLE,
@@ -292,7 +292,7 @@ def suspect_units(model: Model, limits: Limits) -> Iterator[Hit]:
     Severity.NOTE,
     rule="a static's rotation is exactly x = 1, y = z = w = 0",
     headline="{where} {concerned:is|are} turned over: (1, 0, 0, 0)",
-    detail="{edge}: a half turn about x, or no turn written w first",
+    detail="{edge}: a half turn about x, or no rotation, written with w first",
     consequence="if no rotation was meant, the frame is upside down",
     causes=("a quaternion written w first",),
 )
