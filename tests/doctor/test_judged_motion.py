@@ -36,8 +36,9 @@ def test_a_body_that_moved_while_its_poses_were_held_up_has_a_gap_and_no_jump(pa
         assert found(made, "gap").facts["length"] == pytest.approx(1.7e9, rel=0.01)
 
 
-def test_a_body_that_flips_after_its_poses_were_held_up_jumps():
-    assert "teleport" in ids(held_up("world", moves=True, turns=3.1))
+@pytest.mark.parametrize(("turns", "jumps"), [(0.6, False), (3.1, True)])
+def test_only_a_flip_after_poses_were_held_up_is_a_jump(turns, jumps):
+    assert ("teleport" in ids(held_up("world", moves=True, turns=turns))) is jumps
 
 
 def fleet(names: tuple[str, ...], *, ahead: str = "") -> Robot:

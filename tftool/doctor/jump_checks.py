@@ -32,7 +32,8 @@ check = checks_of(Area.VALUES)
     "counting the step to an initial pose. An object that a camera detects is reported for "
     "{corrections:g} steps or more of {detected:g} m and 2 m/s within 1 s. Not reported in a world "
     "frame for a step less than 1 s after a gap of 0.2 s and 8 periods or more, if the "
-    "speed from the last pose before the gap is below {speed:g} m/s, and the turn is no jump",
+    "speed from the last pose before the gap is below {speed:g} m/s. If the turn is a jump too, "
+    "the step must be at most one period after the gap, and the turn since the gap below 90°",
     headline="{named}",
     detail="{edge}: {jump:m} and {turn:deg} at {at:moment}, {count:times}{others}{usual}{after}",
     consequence="data placed before and after the jump does not fit together{also}",
@@ -117,7 +118,9 @@ def _jump(model: Model, track: Track, places: Places, limits: Limits) -> Hit | N
         ends = [end - 1 for run in outliers(track, OUTLIER) for end in run]
         jumps = np.setdiff1d(jumps, ends)
         if is_world(track.parent) and not track.is_odometry:
-            kept = [spun[jump] or not _ends_gap(track, jump, limits) for jump in jumps.tolist()]
+            kept = [
+                not _ends_gap(track, jump, limits, spun=bool(spun[jump])) for jump in jumps.tolist()
+            ]
             jumps = jumps[np.array(kept, dtype=np.bool_)]
     topic, after = _trigger(model, track.logs[others[jumps]])
     share = limits["triggered"] if topic else limits["share"]
@@ -170,7 +173,7 @@ def _jump(model: Model, track: Track, places: Places, limits: Limits) -> Hit | N
     )
 
 
-def _ends_gap(track: Track, jump: int, limits: Limits) -> bool:
+def _ends_gap(track: Track, jump: int, limits: Limits, *, spun: bool) -> bool:
     """Whether the frame may have moved to the pose after a jump since the begin of a recent gap.
 
     The gap ends less than 1 s before the jump. If a tracker's poses are delayed, they are often
@@ -180,14 +183,20 @@ def _ends_gap(track: Track, jump: int, limits: Limits) -> bool:
         track: The edge.
         jump: Index in `track.by_stamp` of the sample before the jump.
         limits: Thresholds of `teleport`.
+        spun: Whether the frame also turns. Then the gap must end at most one period before the
+            jump, and the turn since its begin must be below 90°: a larger turn is a tracker's flip.
     """
     stamps, after = track.sorted_stamps, jump + 1
     steps = np.diff(stamps[:after])
     least = max(_HELD_UP, _HELD_PERIODS * track.period)
-    gaps = np.flatnonzero((steps >= least) & (stamps[jump] - stamps[1:after] < NANOSECONDS))
+    soon = track.period + 1 if spun else NANOSECONDS
+    gaps = np.flatnonzero((steps >= least) & (stamps[jump] - stamps[1:after] < soon))
     before, here = track.by_stamp[gaps], np.full(len(gaps), track.by_stamp[after])
     since = (stamps[after] - stamps[gaps]) / NANOSECONDS
-    return bool((track.apart(before, here) < limits["speed"] * since).any())
+    may_move = track.apart(before, here) < limits["speed"] * since
+    if spun:
+        may_move &= track.turned(before, here) < np.pi / 2
+    return bool(may_move.any())
 
 
 _HELD_UP = seconds(0.2)
