@@ -189,8 +189,8 @@ def static_late(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "latched-overwrite",
     Severity.NOTE,
-    rule="the last message with statics of a publisher lacks some of its child frames. In rosbag2, "
-    "which stores no publishers, the last {kept:g} messages together lack some",
+    rule="a publisher's last message with statics lacks some of the publisher's child frames. In "
+    "rosbag2, which stores no publishers, the last {kept:g} messages together lack some",
     headline="statics are in {messages} messages",
     detail="{told} {lost}",
     consequence="a player of the recording keeps only the last messages for late listeners",

@@ -21,14 +21,13 @@ check = checks_of(Area.CLOCKS)
     "stale-stamp",
     Severity.NOTE,
     rule="the median latency is above {transforms:g} s for a transform or {messages:g} s for "
-    "messages. A warning if another topic shows where the delay arises: a topic with the same "
-    "stamps, or the topic from which the late topic is computed, arrives in time. A warning "
-    "also for a transform with a latency above {odometry:g} s whose poses arrive in time in "
-    "Odometry messages. A warning also for a steadily late transform if a moving transform in the "
-    "same tree arrives in time. A warning also if one sample in ten of a moving transform is later "
-    "than {tenth:g} s and {often:g} times the median, while other data arrives in time; and "
-    "if one in twenty of regular poses is later than {burst:g} s and {rarely:g} times the median. "
-    "Not reported if all late data arrives within 0.2 s",
+    "messages. A warning in five cases. Another topic with the same stamps, or from which the "
+    "late topic is computed, arrives in time. The poses of a transform with a latency above "
+    "{odometry:g} s arrive in time in Odometry messages. A transform is steadily late, and a "
+    "moving transform in the same tree arrives in time. One sample in ten of a moving transform "
+    "is later than {tenth:g} s and {often:g} times the median, while other data arrives in time. "
+    "One in twenty poses of a regular topic is later than {burst:g} s and {rarely:g} times the "
+    "median. Not reported if all late data arrives within 0.2 s",
     headline="{where} {concerned:is|are} dated {upto}{late:span} before {concerned:its|their} "
     "arrival",
     detail="{what}: {late:span} late ({of}){varies}",

@@ -263,8 +263,8 @@ def is_detection(model: Model, track: Track) -> bool:
     "lasts",
     causes=(
         "load",
-        "a network that drops",
-        "a publisher that hung",
+        "a network that drops messages",
+        "a publisher that was blocked",
     ),
     limits={
         "periods": 5,

@@ -22,19 +22,19 @@ Name = TypeVar("Name")
     "outage",
     Severity.WARNING,
     rule="on half or more of the streams with {hz:g} Hz or more, nothing arrives for more than "
-    "{seconds:g} s and {periods:g} periods. A topic of messages and a transform are among these "
-    "streams. Afterwards the streams go on, with a gap in their stamps or with delayed data. A "
-    "constant difference between the clocks is subtracted first. A second case: {times:g} times, "
-    "no message at all arrives for {again:g} s, and messages on /clock then arrive in a burst. The "
-    "evidence also counts shorter times, of {short:g} s or more, without arrivals on the same "
-    "streams. If a static transform is sent again with a new stamp, during an outage or up to 1 s "
-    "later and at no other time, the programs were started again",
+    "{seconds:g} s and {periods:g} periods. One of these streams or more is a topic, and one or "
+    "more is a transform. Afterwards the streams continue, with a gap in their stamps or with "
+    "delayed data. A constant difference between the clocks is subtracted first. A second case: "
+    "{times:g} times, no message at all arrives for {again:g} s, and messages on /clock then "
+    "arrive in a burst. The evidence also counts shorter times, of {short:g} s or more, without "
+    "arrivals on the same streams. If a static transform is sent again with a new stamp, during "
+    "an outage or up to 1 s later and at no other time, the programs were started again",
     headline="nothing arrived for {length:span} on {streams} of {of} streams{often}",
     detail="from {begin:moment} to {end:moment} (log times): {names}; {lost}",
     consequence="data stamped in this time arrived late, in a burst, or never",
     causes=(
         "a network that was down",
-        "a recorder or a disk that hung",
+        "a recorder or a disk that was blocked",
     ),
     limits={"seconds": 2.0, "periods": 10, "hz": 1.0, "again": 0.2, "times": 10, "short": 0.4},
     needs=("log times",),
@@ -309,7 +309,7 @@ _BURST = 3
     detail="{what}: {stalls:times}, the longest from {begin:moment} on (log time); usually every "
     "{period:span}",
     consequence="the delayed messages arrive late, in one burst",
-    causes=("load", "a network that drops", "a node that waits for another"),
+    causes=("load", "a network that drops messages", "a node that waits for another"),
     limits={"seconds": 0.5, "periods": 10, "samples": 50},
     needs=("log times",),
     because_of=(

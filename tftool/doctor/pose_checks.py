@@ -124,7 +124,7 @@ def _is_zero(track: Track) -> Mask:
             "should send nothing"
         ),
     ),
-    causes=("a motion capture that lost its object and sends the last pose",),
+    causes=("a motion capture system lost its object and sends the last pose",),
     limits={
         "seconds": 0.25,
         "repeats": 4,

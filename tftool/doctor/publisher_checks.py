@@ -99,16 +99,16 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
     "motion of the other. Second, the samples alternate between two tracks; a sample belongs to a "
     "track within {reach:g} m + {speed:g} m/s, where a radian counts as half a metre. Each track "
     "needs {samples:g} samples and a share of {share:g}, the track must change {changes:g} times "
-    "or more, and motion at constant velocity must explain all samples {worse:g} times worse than "
-    "each track alone. Tracks of a frame that hardly moves may be nearer: half of the steps and "
-    "{near_changes:g} or more are {near:g} m or longer, each track has a share of {near_share:g}, "
-    "and the tracks are {near_times:g} times as far apart as 95 % of the steps in them. If samples "
-    "jump {near_changes:g} times or more, each time within 1 s of the last jump, and come at 1.5 "
-    "times the usual rate meanwhile, this time is also judged alone. A note for one of three or "
-    "more objects of one publisher that come and go, and for a frame that only turns, unless one "
-    "value returns again and again. A warning if the publishers are unknown, "
-    "if no frame is below this frame and no message is in it, or for a mount whose two values "
-    "differ by less than {slight:g} m and {slight_degrees:g}°",
+    "or more, and one motion at constant velocity must fit all samples {worse:g} times worse than "
+    "two motions fit the two tracks. Tracks of a frame that hardly moves may be nearer: half of "
+    "the steps and {near_changes:g} or more are {near:g} m or longer, each track has a share of "
+    "{near_share:g}, and the tracks are {near_times:g} times as far apart as 95 % of the steps in "
+    "them. If samples jump {near_changes:g} times or more, each time within 1 s of the last jump, "
+    "and come at 1.5 times the usual rate meanwhile, this time is also judged alone. A note for "
+    "one of three or more objects of one publisher that come and go, and for a frame that only "
+    "turns, unless one value returns again and again. A warning if the publishers are unknown, if "
+    "no frame is below this frame and no message is in it, or for a mount whose two values differ "
+    "by less than {slight:g} m and {slight_degrees:g}°",
     headline="{named} {many:has|have} two {two:sources with |}different values{seen}",
     detail="{edge}: {first} and {second}, {told}, {apart:m} and {turned:deg} apart (median), "
     "{worst:m} and {most_turned:deg} at most{also}",
@@ -318,7 +318,7 @@ def _source(track: Track) -> str:
     detail="{topic}: {told} messages{sender}",
     consequence="frames that its publisher does not see are {missing:not in the recording|not "
     "updated meanwhile}",
-    causes=("a motion capture or a detector that does not see its objects",),
+    causes=("a motion capture system or a detector does not see its objects",),
     limits={"times": 10, "share": 0.1},
     needs=("log times",),
 )

@@ -453,15 +453,15 @@ def out_of_order(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "bunched-stamps",
     Severity.NOTE,
-    rule="half of the steps between the stamps of a moving transform with {samples:g} samples or "
-    "more are below {short:g} times the mean step, one in twenty is above {long:g} times the mean "
-    "step, and the samples arrive within {seconds:g} s of their stamps. Or a share of {pairs:g} "
-    "is below {at_once:g} times the mean step, and the frame moves at least half as far in these "
-    "steps as in the others",
+    rule="a moving transform has {samples:g} samples or more. Half of the steps between its stamps "
+    "are below {short:g} times the mean step, one in twenty is above {long:g} times the mean step, "
+    "and the samples arrive within {seconds:g} s of their stamps. Or a share of {pairs:g} of the "
+    "steps is below {at_once:g} times the mean step, and the frame moves at least half as far in "
+    "these steps as in the others",
     headline="stamps of {where} come in bunches",
     detail="{edge}: {share:%} of the steps are below {short:span}, one in twenty is {long:span} or "
     "more; the mean is {mean:span}{moved}",
-    consequence="an interpolated pose is off by up to such a step in time",
+    consequence="the time of an interpolated pose is off by up to such a step",
     causes=("the publisher stamps its data on arrival, and sends it in bunches",),
     limits={
         "samples": 100,
