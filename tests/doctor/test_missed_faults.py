@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tests.doctor.judged import found, ids, turned
-from tests.doctor.robots import NO_TURN, START, Pose, Robot, robot, stands
+from tests.doctor.robots import NO_TURN, START, Pose, Robot, drives, robot, stands
 from tftool.base.stamps import seconds
 from tftool.doctor.findings import Severity
 from tftool.doctor.model import Model
@@ -251,6 +251,44 @@ def test_empty_messages_in_a_gap_show_that_the_publisher_went_on(hz, told):
     finding = found(made, "gap")
     assert ("; its publisher sent 70 messages without a transform" in finding.evidence[0]) is told
     assert ("continued without a pose" in finding.fixes[0].text) is told
+
+
+@pytest.mark.parametrize(
+    ("sent", "late", "missing", "told"),
+    [
+        (
+            False,
+            False,
+            False,
+            "arm in base_link, leg in base_link continued: look at the publisher",
+        ),
+        (True, False, False, "the samples were lost on the way"),
+        (False, True, False, "look at the load, at the network"),
+        (False, False, True, "look at the load, at the network"),
+    ],
+)
+def test_a_publisher_is_named_only_if_nothing_else_can_have_lost_its_samples(
+    sent, late, missing, told
+):
+    made = robot(scans=False)
+    made.records[("odom", "base_link", False)].clear()
+    for tick in range(400):
+        at = 0.02 * tick
+        is_out = 3.0 <= at < 4.5
+        is_held_up = late and 4.5 <= at < 4.6
+        for child in () if missing and is_out and tick % 3 == 0 else ("arm", "leg"):
+            made.sent("base_link", child, at, drives(at))
+        if not is_out:
+            latency = 0.3 if is_held_up else 0.005
+            made.sent("odom", "base_link", at, drives(at), latency=latency)
+    if sent:
+        made.odometry = Robot()
+        made.odometry.moving("odom", "base_link", topic="/odom")
+    finding = found(made, "gap")
+    assert finding.fixes[0].text.startswith(told)
+    assert ("/odom, which has the same stamps, has 75 messages" in finding.evidence[0]) is sent
+    assert ("295 ms later than usual" in finding.evidence[0]) is late
+    assert ("samples of arm in base_link, leg in base_link are" in finding.evidence[0]) is missing
 
 
 def test_a_topic_with_nearly_all_holes_of_an_edge_is_named():

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from tftool.base.plain_text import count
-from tftool.base.stamps import NANOSECONDS
+from tftool.base.stamps import NANOSECONDS, seconds
 from tftool.doctor.check import checks_of, hit_of
 from tftool.doctor.evidence import is_player
 from tftool.doctor.findings import STOPPED_PERIODS, Area, Fix, Hit, Severity
@@ -539,16 +539,58 @@ def _places_robot(model: Model, track: Track, begin: int = NEVER) -> bool:
     return begin > started and track.moves and regular and named is None
 
 
-def _publisher_at(model: Model, track: Track, begin: int, end: int) -> Fix:
-    """Return the remedy for a gap of one edge, with the streams that continued during the gap."""
+def _publisher_at(model: Model, track: Track, begin: int, end: int) -> tuple[str, Fix]:
+    """Return a clause and the remedy for a gap of one edge, with the streams that continued."""
     streams: list[Track | Heard] = [one for one in model.dynamic if one is not track]
     streams += model.heard
-    names = [one.name for one in streams if _is_going_on(one, begin, end)]
-    if names:
-        return Fix(
-            f"{several(names, 3)} continued: look at the publisher of the transform at that time"
-        )
-    return Fix("look at its publisher at that time, and at the source of the poses")
+    going = [one for one in streams if _is_going_on(one, begin, end)]
+    whole = [one for one in going if _is_going_on(one, begin, end, _WHOLE)]
+    first = track.by_stamp[np.searchsorted(track.sorted_stamps, end)]
+    late = int(track.latency[first]) - track.median_latency if model.evidence.timed else 0
+    if late > _LATE:
+        told = f"; the sample after the gap is {span(late)} later than usual"
+        return told, _WAY
+    if 2 * len(whole) < len(going):
+        some = [one.name for one in going if one not in whole]
+        return f"; in the gap, samples of {several(some, 3)} are missing too", _WAY
+    if whole:
+        names = several([one.name for one in whole], 3)
+        return "", Fix(f"{names} continued: look at the publisher of the transform at that time")
+    return "", Fix("look at its publisher at that time, and at the source of the poses")
+
+
+_WHOLE = 0.9
+"""Minimum fraction of its usual samples that a stream has in a gap of which it has no part."""
+
+_LATE = seconds(0.1)
+"""Additional latency, nanoseconds, from which the sample after a gap was held up."""
+
+_WAY = Fix("look at the load, at the network and at the queues at that time")
+"""Remedy for a gap that the publisher may not have caused."""
+
+
+def _sent(model: Model, track: Track, begin: int, end: int) -> str:
+    """Return a clause if Odometry messages show that an edge's samples in a gap were sent.
+
+    The messages have the same frames and mostly the same stamps as the edge. Without such messages
+    in the gap, the clause is empty.
+    """
+    odometry = model.evidence.odometry
+    for edge in () if odometry is None else odometry.edges:
+        assert odometry is not None
+        told = Track(edge, odometry)
+        inside = np.count_nonzero((told.stamps > begin) & (told.stamps < end))
+        is_same = told.edge == track.edge and np.isin(track.stamps, told.stamps).mean() > _SAME
+        if inside > 1 and is_same:
+            return (
+                f"; {told.topics[0]}, which has the same stamps, has {int(inside)} messages in the "
+                "gap"
+            )
+    return ""
+
+
+_SAME = 0.5
+"""Minimum fraction of an edge's stamps that are also those of the Odometry messages."""
 
 
 def _in_service(model: Model, track: Track, limits: Limits) -> list[tuple[int, int]]:
@@ -563,14 +605,15 @@ def _in_service(model: Model, track: Track, limits: Limits) -> list[tuple[int, i
     return [one for one in found if one[0] != first and model.log_of(one[1]) >= model.start]
 
 
-def _is_going_on(stream: Track | Heard, begin: int, end: int) -> bool:
+def _is_going_on(stream: Track | Heard, begin: int, end: int, share: float = 0.5) -> bool:
     """Whether a stream has at least half of its usual samples between two stamps.
 
-    The stamps `begin` and `end` bound a gap of another stream.
+    The stamps `begin` and `end` bound a gap of another stream. For a larger `share` of the samples,
+    one more may be missing.
     """
     inside = np.count_nonzero((stream.stamps > begin) & (stream.stamps < end))
     usual = len(stream.stamps) * (end - begin) / max(1, int(np.ptp(stream.stamps)))
-    return bool(usual > 2 and 2 * inside > usual)
+    return bool(usual > 2 and inside > max(0.5 * usual, share * usual - 1))
 
 
 def _is_silent(stream: Track | Heard, begin: int, end: int) -> bool:
@@ -647,7 +690,9 @@ def _cause(model: Model, track: Track, hole: tuple[int, int], silent: bool) -> t
         return text, Fix(
             "its publisher continued without a pose: its source did not see the object"
         )
-    return "", _SOURCE if silent else _publisher_at(model, track, *hole)
+    if sent := _sent(model, track, *hole):
+        return sent, Fix("the samples were lost on the way: look at the network and the queues")
+    return ("", _SOURCE) if silent else _publisher_at(model, track, *hole)
 
 
 @check(
