@@ -349,7 +349,7 @@ def test_a_split_tree_is_worse_where_messages_are_in_it():
     made = robot()
     made.static("camera_link", "camera_optical")
     finding = found(made, "split-tree")
-    assert finding.severity is Severity.WARNING
+    assert finding.severity is Severity.NOTE
     # No data shows where the camera is mounted.
     assert finding.facts["join"] is None
     assert "nothing in the data says where to join camera_link" in finding.fixes[0].text
@@ -368,6 +368,24 @@ def test_a_split_tree_is_worse_where_messages_are_in_it():
     assert (finding.severity, finding.topics) == (Severity.WARNING, ("/image",))
     made.hears("/points", "camera_optical", kind="sensor_msgs/PointCloud2")
     assert found(made, "split-tree").severity is Severity.ERROR
+
+
+def test_a_constant_tree_without_messages_is_a_note():
+    for child, pose, topic, frame, severity in (
+        ("pad_imu", stands, "/scan", "laser", Severity.NOTE),
+        ("pad_imu", drives, "/scan", "laser", Severity.WARNING),
+        ("base_footprint", stands, "/scan", "laser", Severity.WARNING),
+        ("pad_imu", stands, "/pad", "/pad_imu", Severity.WARNING),
+    ):
+        made = robot(scans=False)
+        made.moving("pad", child, 1.0, pose)
+        made.hears(topic, frame, kind="sensor_msgs/Image")
+        (finding,) = [one for one in made.judged().findings if one.id == "split-tree"]
+        assert finding.severity is severity
+    # Without any recorded message, an empty tree says nothing.
+    made = robot(scans=False)
+    made.static("pad", "pad_imu")
+    assert found(made, "split-tree").severity is Severity.WARNING
 
 
 def test_trees_that_nothing_joins_are_one_finding():

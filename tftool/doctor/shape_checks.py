@@ -113,7 +113,8 @@ def _circling(links: set[tuple[str, str]]) -> set[tuple[str, str]]:
     rule="there is more than one root. An error if scans, point clouds or ranges are in a frame of "
     "a smaller tree, beside a tree with a base frame. A note if each tree is a whole robot, "
     "if two trees contain one frame in two conventions (odom, odom_ned) and no message is in "
-    "one of these trees, or if the recording is shorter than {seconds:g} s",
+    "one of these trees, or if the recording is shorter than {seconds:g} s. A note too if nothing "
+    "in a tree moves, it has no base frame, and of the recorded messages none is in the tree",
     headline="{named} {many:is|are} not joined to the tree of {main_root}",
     detail="tree {number}: {frames}{users}{evidence}",
     consequence="lookups between these frames and {main_root} fail",
@@ -157,7 +158,8 @@ def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
             model.end - model.start < limits["seconds"] * NANOSECONDS
         )
         is_robot = join is not None and join.edge is None
-        if is_short or is_robot or _is_convention(tree, topics):
+        is_idle = not topics and _is_idle(model, tree)
+        if is_short or is_robot or is_idle or _is_convention(tree, topics):
             severity = Severity.NOTE
         mount = "" if join is not None else mount_command(model, own, tree.root)
         fix = nothing_says(model, "{named}", mount) if join is None else join.fix
@@ -238,11 +240,17 @@ def _is_convention(tree: Tree, topics: Mapping[str, int]) -> bool:
     return not topics and len(tree.frames) > 1 and tree.frames <= {tree.root, *others}
 
 
+def _is_idle(model: Model, tree: Tree) -> bool:
+    """Whether a tree has only constant transforms and no base frame, beside recorded messages."""
+    moves = any(track.moves for track in model.tracks if track.child in tree.frames)
+    return not moves and not base_of(tree) and any(heard.is_spatial for heard in model.heard)
+
+
 def _messages_in(model: Model, tree: Tree) -> dict[str, int]:
     """Return the number of messages in a tree's frames, by topic."""
     counts: dict[str, int] = defaultdict(int)
     for heard in model.heard:
-        if heard.is_spatial and heard.frame in tree.frames:
+        if heard.is_spatial and heard.frame.removeprefix("/") in tree.frames:
             counts[heard.topic] += len(heard.stamps)
     return dict(sorted(counts.items()))
 
