@@ -218,6 +218,24 @@ def test_a_frame_that_is_static_and_moves():
     made = robot()
     made.static("map", "base_link", at=3.0)
     assert found(made, "static-and-dynamic").frames == ("base_link",)
+    assert found(made, "static-and-dynamic").severity is Severity.ERROR
+
+
+def test_wheels_that_are_static_and_moving_are_one_warning():
+    made = robot()
+    for name in ("left_wheel", "right_wheel"):
+        made.moving("base_link", name, 10.0, stands)
+        for second in range(8):
+            made.static("base_link", name, at=second + 0.05)
+    assert ids(made) == ["static-and-dynamic"]
+    finding = found(made, "static-and-dynamic")
+    assert finding.message == "left_wheel, right_wheel are sent on /tf and on /tf_static"
+    assert finding.severity is Severity.WARNING
+    # Between two statics, ten samples with stamps 0.1 s apart arrive.
+    assert all("at most 900 ms of history" in line for line in finding.evidence)
+    made.hears("/camera", "left_wheel", kind="sensor_msgs/Image")
+    assert found(made, "static-and-dynamic").severity is Severity.ERROR
+    assert found(made, "static-and-dynamic").frames == ("left_wheel",)
 
 
 def test_a_static_that_changes_and_one_that_moves():

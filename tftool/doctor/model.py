@@ -421,7 +421,12 @@ class Model:
             return False
         if any(last_part(frame) in BASES for frame in below):
             return False
-        return not any(
+        return not self.has_sensor(track.child)
+
+    def has_sensor(self, frame: str) -> bool:
+        """Whether sensor messages with a position are in a frame or below it."""
+        below = self.below(frame)
+        return any(
             h.is_spatial and h.type.startswith("sensor_msgs/") and h.frame.lstrip("/") in below
             for h in self.heard
         )

@@ -23,8 +23,9 @@ check = checks_of(Area.PUBLISHERS)
     "static-and-dynamic",
     Severity.ERROR,
     rule="a frame is the child of a static transform and of a moving transform. A warning if the "
-    "kind changes once, and in ROS 1, which keeps the first kind",
-    headline="{child} is sent on /tf and on /tf_static",
+    "kind changes once, if no sensor message is in the frame or below it, and in ROS 1, which "
+    "keeps the first kind",
+    headline="{named} {many:is|are} sent on /tf and on /tf_static",
     detail="moving: {moving}; static: {static}{apart}{changes}",
     consequence="{so}",
     causes=(
@@ -46,13 +47,19 @@ def static_and_dynamic(model: Model, limits: Limits) -> Iterator[Hit]:
         order = np.argsort(logs, kind="stable")
         turns = np.flatnonzero(np.diff(kinds[order].astype(np.int8)))
         bounds = np.concatenate((logs[order][:1], logs[order][turns + 1], logs[order][-1:]))
-        history = int(np.diff(bounds).max()) if len(bounds) > 1 else 0
+        # Each static clears the buffer, so only the stamps between two statics are kept.
+        starts = np.concatenate(([0], turns + 1))
+        stamps = np.concatenate([t.stamps for t in tracks])[order]
+        kept = np.maximum.reduceat(stamps, starts) - np.minimum.reduceat(stamps, starts)
+        history = int(kept[~kinds[order][starts]].max(initial=0))
         is_one_edge = len({track.edge for track in tracks}) == 1
         fix = ends_at_the_root(model, moving[child], statics)
         if fix is None:
             fix = find_publishers(tracks)
         if is_one_edge and any(track.moves for track in moving[child]):
             fix = Fix(f"{child} moves on /tf, which a static transform cannot follow: {fix.text}")
+        is_mild = len(turns) < 2 or is_ros1(model.evidence) or not model.has_sensor(child)
+        so = _mixed_kinds(model, child, tracks, len(turns))
         yield Hit(
             edges=tuple(dict.fromkeys(track.edge for track in tracks)),
             frames=(child,),
@@ -61,17 +68,18 @@ def static_and_dynamic(model: Model, limits: Limits) -> Iterator[Hit]:
             count=len(turns),
             facts={
                 "child": child,
+                "named": child,
                 "moving": [f"{t.name} on {', '.join(t.topics)}" for t in moving[child]],
                 "static": [f"{t.name} on {', '.join(t.topics)}" for t in statics],
                 "turns": len(turns),
                 "history": history,
                 "changes": _changes(model, len(turns), history),
                 "apart": _two_mounts(moving[child][0], statics[0]) if is_one_edge else "",
-                "so": _mixed_kinds(model, child, tracks, len(turns)),
+                "so": so,
             },
-            severity=Severity.WARNING if len(turns) < 2 or is_ros1(model.evidence) else None,
+            severity=Severity.WARNING if is_mild else None,
             fixes=(fix,),
-            alone=True,
+            group=f"{so} {fix.line}",
         )
 
 
@@ -97,13 +105,14 @@ def _changes(model: Model, turns: int, history: int) -> str:
     Args:
         model: Model of the evidence.
         turns: Number of changes.
-        history: Longest time without a change, nanoseconds.
+        history: Longest span of stamps between two statics, nanoseconds.
     """
     if is_ros1(model.evidence):
         return ""
     if turns == 1:
         return "; the kind changes once"
-    return f"; the kind changes {turns} times, at most {span(history)} of history are kept"
+    kept = f"at most {span(history)} of history are kept" if history else "no history is kept"
+    return f"; the kind changes {turns} times, {kept}"
 
 
 def _mixed_kinds(model: Model, child: str, tracks: Sequence[Track], turns: int) -> str:
@@ -129,7 +138,7 @@ def _mixed_kinds(model: Model, child: str, tracks: Sequence[Track], turns: int) 
             return (
                 f"the change clears the history of {child}: later lookups of the time before fail"
             )
-        return f"each change of kind clears the history of {child}: lookups in the past fail"
+        return "each change of kind clears the history of the frame: lookups in the past fail"
     first = model.first_of(child)
     at = f"{as_seconds(int(first.logs[0]) - model.start):.2f} s"
     kind = "static" if first.static else "moving"
