@@ -32,6 +32,15 @@ def test_a_slash_in_a_header_has_its_own_check():
     # A message filter removes the slash, so that its lookup succeeds.
     assert "direct tf2 lookup" in found(made, "slash-twins").consequence
     assert found(made, "slash-twins").severity is Severity.ERROR
+    made.hears("/goal", "/laser", kind="geometry_msgs/PoseStamped")
+    (of_pose,) = [one for one in made.judged().findings if one.topics == ("/goal",)]
+    assert of_pose.severity is Severity.WARNING
+
+    # A transform of the frame has the slash too.
+    made.slashed["base_link", "laser", True] = 1
+    assert found(made, "slash-twins").severity is Severity.NOTE
+    assert "names /laser, as transforms do" in found(made, "slash-twins").message
+    made.slashed.clear()
 
     # ROS 1's own tf removes the slash: such a robot works, and its transforms have slashes.
     made.kind = "ROS 1 bag"

@@ -216,8 +216,8 @@ def _renames(model: Model, name: str, alike: list[str], heards: list[Heard]) -> 
     "slash-twins",
     Severity.ERROR,
     rule="the frame in a header begins with a slash, and a transform has the same name without the "
-    "slash. A warning in ROS 1, whose tf removes the slash. A note if the transforms have the "
-    "slash too",
+    "slash. A warning in ROS 1, whose tf removes the slash, and for topics other than scans, point "
+    "clouds, ranges, images and IMUs. A note if a transform of the frame has the slash too",
     headline="{topic} {aged}names {frame}, {tf}",
     detail="{topic}: {frame}, {count:times}{outside}",
     consequence="every direct tf2 lookup fails: \"in tf2 frame_ids cannot start with a '/'\" "
@@ -236,19 +236,21 @@ def slash_twins(model: Model, limits: Limits) -> Iterator[Hit]:
     for heard in model.heard:
         known = heard.frame[1:]
         if heard.frame.startswith("/") and known in model.frames:
-            slashed = [t.slashed == len(t.all_stamps) for t in model.tracks if known in t.edge]
-            severity = Severity.NOTE if all(slashed) else Severity.WARNING
+            # A publisher for tf 1 sends both names of a transform with the slash.
+            slashed = [t.slashed for t in model.tracks if known in t.edge]
+            is_sensor = last_part(heard.type) in {*PLACED, "Image", "Imu"}
+            severity = Severity.WARNING if is_old or not is_sensor else Severity.ERROR
             outside = _outside(model, heard, known)
             yield Hit(
                 frames=(heard.frame, known),
                 topics=(heard.topic,),
                 since=int(heard.logs[0]) if len(heard.logs) else None,
                 count=len(heard.stamps),
-                severity=severity if is_old else None,
+                severity=Severity.NOTE if any(slashed) else severity,
                 facts={
                     "frame": heard.frame,
                     "known": known,
-                    "tf": "as the transforms do" if all(slashed) else f"tf knows {known}",
+                    "tf": "as transforms do" if any(slashed) else f"tf knows {known}",
                     "topic": heard.topic,
                     "count": len(heard.stamps),
                     "aged": f"is {outside}, and " if outside else "",
