@@ -179,6 +179,18 @@ def test_samples_between_a_jump_and_the_jump_back_are_outliers(every, often):
     assert "markers" in finding.fixes[2].text
 
 
+def test_two_poses_for_one_stamp_are_told_as_such():
+    made = Robot()
+    for tick in range(100):
+        made.sent("camera", "marker", 0.1 * tick, (0.0, 0.0, 1.0, *NO_TURN))
+        if tick == 50:
+            made.sent("camera", "marker", 0.1 * tick, (0.3, 0.0, 1.0, *turned(2.8)))
+    finding = found(made, "outlier")
+    assert finding.message == "marker in camera has two poses, 0.30 m apart, for one stamp"
+    assert finding.fixes[0].command == "tftool echo camera marker RECORDING --at 1750000004.9"
+    assert finding.fixes[1].command == "tftool echo camera marker RECORDING --at 1750000005"
+
+
 @pytest.mark.parametrize(("angle", "told"), [(2.8, True), (1.5, False)])
 def test_half_a_turn_that_lasts_asks_for_the_markers(angle, told):
     finding = found(flips(angle, length=1.0), "teleport")

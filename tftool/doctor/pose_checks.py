@@ -331,7 +331,10 @@ _SHORT = 1e-3
 
 
 def look_at(model: Model, edge: Edge, before: Stamp, after: Stamp) -> tuple[Fix, ...]:
-    """Return remedies with the commands that print the poses before and after a jump."""
+    """Return remedies with the commands that print the poses before and after a jump.
+
+    If there is no earlier stamp, `before` and `after` are equal, and one command remains.
+    """
     echo = f"tftool echo {quoted(edge[0])} {quoted(edge[1])} RECORDING --at"
     # A small number is seconds since the start of the recording, not a stamp.
     begin = model.epoch if after < SIMULATED_BELOW else 0
@@ -339,6 +342,8 @@ def look_at(model: Model, edge: Edge, before: Stamp, after: Stamp) -> tuple[Fix,
         f"{(one - begin) // NANOSECONDS}.{(one - begin) % NANOSECONDS:09}".rstrip("0").rstrip(".")
         for one in (before, after)
     )
+    if before == after:
+        return (Fix("compare the jump with the sensors:", f"{echo} {then}"),)
     return (
         Fix("compare the jump with the sensors; before it:", f"{echo} {first}"),
         Fix("after it:", f"{echo} {then}"),
@@ -378,7 +383,7 @@ _STEADY = math.radians(20.0)
     "or more at more than 1000°/s count too, if a body in a world frame usually turns by less "
     "than 1°. A note for one of three or more objects of one publisher that come and go, and for "
     "a part of a robot if no sensor message is in its frame. Not reported for a localiser",
-    headline="{named} for {longest:span}, and back{often}",
+    headline="{named} for {lasting}{often}",
     detail="{edge}: {wrong} at {at:moment}, {jump:m} and {turn:deg} away{others}",
     consequence="a lookup at these times gets a wrong pose",
     causes=(
@@ -408,10 +413,16 @@ def outlier(model: Model, limits: Limits) -> Iterator[Hit]:
         times = [moment(stamp) for stamp in track.stamps[begins].tolist()]
         most = float(track.turned(places[[one - 1 for one, _ in spans]], begins).max())
         up_to = f"; up to {np.degrees(most):.3g}°" if most > 2.0 * turn else ""
+        at = int(track.stamps[first[0]])
+        named, lasting = f"{track.name} jumps {far} away", f"{span(lengths[worst])}, and back"
+        if track.stamps[before[0]] == at:
+            named, lasting = f"{track.name} has two poses, {far} apart,", "one stamp"
+        earlier = track.sorted_stamps[: np.searchsorted(track.sorted_stamps, at)]
         yield hit_of(
             track,
             {
-                "named": f"{track.name} jumps {far} away",
+                "named": named,
+                "lasting": lasting,
                 "longest": lengths[worst],
                 "often": f", {len(spans)} times" if len(spans) > 1 else "",
                 "wrong": count(end - begin, "sample"),
@@ -429,7 +440,7 @@ def outlier(model: Model, limits: Limits) -> Iterator[Hit]:
             if model.is_minor(track) or track.child in model.passing
             else None,
             fixes=(
-                *look_at(model, track.edge, *track.stamps[[before[0], first[0]]].tolist()),
+                *look_at(model, track.edge, int(earlier[-1]) if len(earlier) else at, at),
                 *marker_fix(track),
             ),
         )
