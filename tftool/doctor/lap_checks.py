@@ -77,12 +77,13 @@ def time_jump_back(model: Model, limits: Limits) -> Iterator[Hit]:
 def _pause(model: Model) -> str:
     """Return a clause about the time before the first jump in which nothing arrived, or ""."""
     stop = model.end - LAP
-    arrivals = [one.logs for one in (*model.tracks, *model.heard)]
+    # A player sends its static transforms first, about one second earlier.
+    arrivals = [one.logs for one in (*model.dynamic, *model.heard)]
     arrivals += [model.evidence.clock[1], *model.evidence.commands.values()]
     last = max(int(logs[logs < stop].max(initial=model.start)) for logs in arrivals)
     if stop - last < _PAUSE:
         return ""
-    told = f"no transform and no message with a header arrived for {span(model.end - last)}"
+    told = f"no moving transform and no message with a header arrived for {span(model.end - last)}"
     return f"; before it, {told}"
 
 
