@@ -392,6 +392,20 @@ def test_shorter_times_without_arrivals_are_counted_beside_an_outage():
     assert found(made, "outage").evidence[0].endswith(also)
 
 
+def test_a_stream_that_begins_in_an_outage_is_not_silent():
+    made = robot(odometry=False, scans=False)
+    for begin, end in ((0.0, 4.0), (14.0, 20.0)):
+        made.moving("base_link", "arm", begin=begin, end=end)
+        made.moving("arm", "hand", begin=begin, end=end)
+    for begin, end in ((0.0, 5.9), (10.0, 20.0)):
+        made.hears("/scan", "laser", begin=begin, end=end)
+    made.moving("odom", "base_link", begin=8.0, end=20.0)
+    # From the last scan, at 5.815 s, to the next one, at 10.015 s.
+    assert found(made, "outage").message == (
+        "nothing arrived for 4.20 s on 3 of 4 streams, and for 10.02 s on 2 of them"
+    )
+
+
 @pytest.mark.parametrize("ahead", [0.0, 80.0])
 def test_each_outage_is_told_whatever_the_offset_of_the_clock(ahead):
     """Check two outages in which the lidar's and the odometry's data is lost."""

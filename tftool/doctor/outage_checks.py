@@ -29,7 +29,7 @@ Name = TypeVar("Name")
     "arrive in a burst. The evidence also counts shorter times, of {short:g} s or more, without "
     "arrivals on the same streams. If a static transform is sent again with a new stamp, during "
     "an outage or up to 1 s later and at no other time, the programs were started again",
-    headline="nothing arrived for {length:span} on {streams} of {of} streams{often}",
+    headline="nothing arrived for {length:span} on {streams} of {of} streams{longer}{often}",
     detail="from {begin:moment} to {end:moment} (log times): {names}; {lost}",
     consequence="data stamped in this time arrived late, in a burst, or never",
     causes=(
@@ -70,6 +70,7 @@ def outage(model: Model, limits: Limits) -> Iterator[Hit]:
             "of": worst.of,
             "names": [stream.name for stream in worst.streams],
             "lost": _lost(worst) + again + also + _shorter(worst, outages, limits),
+            "longer": _longer(worst),
             "often": f", the longest of {len(outages)} outages ({total} in all)" if others else "",
         },
         fixes=(_RESTARTED if again else _NETWORK,),
@@ -85,7 +86,8 @@ class _Outage:
         begin: Log time at which the last of the streams fell silent.
         end: Log time at which the first of the streams resumed.
         streams: The silent streams.
-        of: Number of streams that had begun before.
+        silences: For each silent stream, the time without arrivals around the outage, nanoseconds.
+        of: Number of streams that began before `end`.
         holes: For each silent stream, the largest step between the stamps of that time,
             nanoseconds; 0 if it is not above 3 periods.
         held: Largest delay of the first message afterwards, beyond the usual delay, nanoseconds.
@@ -95,6 +97,7 @@ class _Outage:
     begin: Stamp
     end: Stamp
     streams: tuple[Track | Heard, ...]
+    silences: tuple[Duration, ...]
     of: int
     holes: tuple[Duration, ...]
     held: Duration
@@ -154,17 +157,17 @@ def _outages(model: Model, limits: Limits) -> list[_Outage]:
         wide = np.flatnonzero(steps > least)
         ends = zip(stream.logs[wide].tolist(), stream.logs[wide + 1].tolist(), strict=True)
         rows += [(low, high, stream) for low, high in ends]
-    found: list[tuple[int, int, list[Track | Heard]]] = []
+    found: list[tuple[int, int, list[tuple[int, int, Track | Heard]]]] = []
     silent: list[tuple[int, int, Track | Heard]] = []
     for row in sorted(rows, key=lambda row: row[0]):
         begin = row[0]
         silent = [one for one in silent if one[1] > begin] + [row]
         end = min(one[1] for one in silent)
-        of = sum(int(stream.logs[0]) <= begin for stream in judged)
+        of = sum(int(stream.logs[0]) < end for stream in judged)
         is_most = len({type(one[2]) for one in silent}) == 2 and 2 * len(silent) >= of
         if is_most and end - begin >= limits["seconds"] * NANOSECONDS:
-            found.append((begin, end, [one[2] for one in silent]))
-    kept: list[tuple[int, int, list[Track | Heard]]] = []
+            found.append((begin, end, silent))
+    kept: list[tuple[int, int, list[tuple[int, int, Track | Heard]]]] = []
     for one in sorted(found, key=lambda one: (-len(one[2]), one[0] - one[1])):
         if all(one[0] >= other[1] or one[1] <= other[0] for other in kept):
             kept.append(one)
@@ -172,13 +175,15 @@ def _outages(model: Model, limits: Limits) -> list[_Outage]:
         _Outage(
             begin,
             end,
-            tuple(streams),
-            sum(int(stream.logs[0]) <= begin for stream in judged),
-            tuple(_hole(stream, begin, end) for stream in streams),
-            max(_held(stream, end) for stream in streams),
+            tuple(stream for _, _, stream in rows),
+            tuple(high - low for low, high, _ in rows),
+            # A stream that begins meanwhile is not silent.
+            sum(int(stream.logs[0]) < end for stream in judged),
+            tuple(_hole(stream, begin, end) for _, _, stream in rows),
+            max(_held(stream, end) for _, _, stream in rows),
             tuple(s.name for s in every if begin - NANOSECONDS < s.logs[-1] < end),
         )
-        for begin, end, streams in sorted(kept, key=lambda one: one[0])
+        for begin, end, rows in sorted(kept, key=lambda one: one[0])
     ]
 
 
@@ -204,6 +209,14 @@ def _hole(stream: Track | Heard, begin: Stamp, end: Stamp) -> Duration:
     inside = (stamps[1:] > begin + by) & (stamps[:-1] < end + by)
     hole = int(steps[inside].max(initial=0))
     return hole if hole > 3 * int(np.median(steps)) else 0
+
+
+def _longer(outage: _Outage) -> str:
+    """Return a clause, if half or more of the streams were silent twice as long as all; or ""."""
+    longer = [silence for silence in outage.silences if silence > 2 * outage.length]
+    if 2 * len(longer) < outage.of:
+        return ""
+    return f", and for {span(min(longer))} on {len(longer)} of them"
 
 
 def _lost(outage: _Outage) -> str:
@@ -286,6 +299,7 @@ def _receiver_stalls(model: Model, limits: Limits) -> Hit | None:
             "names": ["/clock", *(one.name for one in streams)],
             "lost": "/clock continued meanwhile, and came in a burst afterwards: the recorder, its "
             "computer or the network stalled",
+            "longer": "",
             "often": f", again and again: {len(places)} times",
         },
         fixes=(
