@@ -242,6 +242,26 @@ def test_only_topics_with_messages_before_and_after_a_gap_have_the_same_gap():
     assert found(made, "gap").evidence[0].endswith("; at the same time: /pose")
 
 
+@pytest.mark.parametrize(
+    ("hz", "end", "told"),
+    [
+        (5.0, 60.0, "; /nmea goes on for 19.81 s (100 messages)"),
+        (0.5, 60.0, ""),
+        (0.5, 50.0, ""),
+    ],
+)
+def test_a_source_that_stops_with_its_transform_is_named(hz, end, told):
+    made = robot(odometry=False, laser=False, scans=False)
+    made.moving("world", "gps", hz=1.0, end=41.0)
+    made.hears("/fix", "gps", 1.0, "sensor_msgs/NavSatFix", end=41.0 if end == 60.0 else 50.0)
+    made.hears("/nmea", "gps", 5.0, "nmea_msgs/Sentence", end=40.0)
+    made.hears("/nmea", "gps", hz, "nmea_msgs/Sentence", begin=40.0, end=60.0)
+    made.hears("/time", "gps", 0.2, "sensor_msgs/TimeReference", end=60.0)
+    finding = found(made, "edge-stopped")
+    assert ("/fix, which has the same stamps" in finding.fixes[0].text) is (end == 60.0)
+    assert finding.evidence[0].endswith(f"came every 1.00 s{told}")
+
+
 @pytest.mark.parametrize(("hz", "told"), [(50.0, True), (5.0, False)])
 def test_empty_messages_in_a_gap_show_that_the_publisher_went_on(hz, told):
     made = Robot()

@@ -115,11 +115,17 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
         if all_end and not driven and (model.laps or not is_soon):
             continue
         cure = f"check whether its publisher still runs: `{{publishers}} {track.topics[0]}`"
+        if source := _stopped_with(model, track):
+            cure = (
+                f"{source}, which has the same stamps, stops at the same time: look at its "
+                f"publisher and its sensor: `{{publishers}} {source}`"
+            )
         is_played = model.was_played and all(map(is_player, track.nodes))
         if is_played:
             cure = "a player published it: check whether the played recording ends there"
         others_go_on = any(ends[id(other)] - last > least for other in model.dynamic)
         heard = {one.topic: one.logs[one.logs < stop] for one in alive if isinstance(one, Heard)}
+        heard = {topic: times for topic, times in heard.items() if _keeps_its_rate(times, last)}
         if driven:
             cure = (
                 "all transforms and sensor data end here: look at the robot's drivers at this "
@@ -173,6 +179,38 @@ def _going_on(streams: Mapping[str, Stamps], last: int, least: float, limits: Li
         if len(later) >= limits["commands"] and later[-1] - last > least:
             told += f"; {topic} goes on for {span(int(later[-1]) - last)} ({len(later):,} messages)"
     return told
+
+
+def _keeps_its_rate(times: Stamps, last: int) -> bool:
+    """Whether a topic has at least half of its usual rate after a time.
+
+    Args:
+        times: Log times of the messages, ascending, nanoseconds.
+        last: The time, nanoseconds.
+    """
+    later = np.count_nonzero(times > last)
+    before = len(times) - later
+    if not before or not later:
+        return True
+    since, until = float(last - times[0]), float(times[-1] - last)
+    return bool(2 * later * since >= before * until)
+
+
+def _stopped_with(model: Model, track: Track) -> str:
+    """Return the first topic from which an edge that stops may be computed; "" without such topic.
+
+    At least 90 % of the edge's stamps are those of messages of the topic, and the topic stops
+    within one period of the edge.
+    """
+    for heard in model.heard:
+        is_near = abs(int(heard.logs[-1] - track.logs[-1])) <= track.period
+        if is_near and np.isin(track.stamps, heard.stamps).mean() >= _EQUAL:
+            return heard.topic
+    return ""
+
+
+_EQUAL = 0.9
+"""Minimum fraction of equal stamps of an edge that is computed from a topic."""
 
 
 def _is_shut_down(model: Model, alive: "list[Track | Heard]", end: float) -> bool:
