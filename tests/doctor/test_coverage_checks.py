@@ -243,6 +243,25 @@ def test_odometry_that_comes_too_late_for_the_laser():
     assert any("no rate is enough" in fix.text for fix in finding.fixes)
 
 
+@pytest.mark.parametrize(("held", "told"), [(1, "38 % of the samples"), (17, "use a timeout")])
+def test_a_lossy_recording_shows_no_timeout(held, told):
+    made = robot(odometry=False, scans=False)
+    for tick in range(400):
+        # 140 of 374 samples: 14 in a row, and a pause.
+        if tick % 40 < 14 or held > 1:
+            made.sent("odom", "base_link", 0.02 * tick, drives(tick / 50), latency=0.01 * held)
+    made.hears("/scan", "laser", hz=20)
+    assert told in found(made, "sensor-outruns-tf").fixes[0].text
+
+
+def test_the_longest_wait_is_that_of_all_messages_that_can_be_placed():
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", hz=5, latency=0.05, without=(0.3, 0.9))
+    made.hears("/scan", "laser", hz=20)
+    # The scan at 0.25 s arrives at 0.265 s, and the next transform at 1.05 s.
+    assert found(made, "sensor-outruns-tf").facts["worst"] == pytest.approx(seconds(0.785), abs=1)
+
+
 def test_a_rate_that_a_link_has_already_is_no_cure():
     made = robot(odometry=False, scans=False)
     made.moving("odom", "base_link", hz=10, latency=0.0)

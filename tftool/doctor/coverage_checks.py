@@ -420,9 +420,10 @@ def _outrun(model: Model, group: list[tuple[Heard, Waits]], limits: Limits) -> H
     heard, waits = max(group, key=lambda one: int(one[1].served.max(initial=0)))
     served = waits.served
     never = 1.0 - len(served) / len(waits.waits)
-    p50, p95, worst = (
-        (waits.serves(50), waits.serves(95), int(served.max())) if len(served) else (0, 0, 0)
-    )
+    p50, p95 = (waits.serves(50), waits.serves(95)) if len(served) else (0, 0)
+    # The rates do not count the first and the last second; the longest wait does.
+    every = (waits_of(model, one, model.sensor_frame, warm=False) for one, _ in group)
+    worst = max(int(one.served.max(initial=0)) for one in every if one is not None)
     refused = float(np.count_nonzero(waits.waits > 0)) / len(waits.waits)
     # tf2 tries again every 10 ms: if all messages wait, so does a listener.
     wait = rounded_up(p95) if refused > limits["all"] else p95 - 1
@@ -461,7 +462,7 @@ def _outrun(model: Model, group: list[tuple[Heard, Waits]], limits: Limits) -> H
         topics=topics,
         count=sum(int(np.count_nonzero(its.waits > 0)) for _, its in group),
         severity=severity,
-        fixes=_cures(heard, waits, limits["seconds"]),
+        fixes=_cures(heard, waits, worst, limits["seconds"]),
         alone=True,
     )
 
@@ -496,15 +497,15 @@ def _only_in_holes(waits: Waits, wait: float) -> bool:
     return float(np.count_nonzero(late)) <= 0.05 * len(late)
 
 
-def _cures(heard: Heard, waits: Waits, wait: float) -> tuple[Fix, ...]:
+def _cures(heard: Heard, waits: Waits, worst: int, wait: float) -> tuple[Fix, ...]:
     """Return the remedies for messages that arrive before their transforms.
 
     Args:
         heard: Headers of the messages.
         waits: Waiting times of the messages.
+        worst: Longest waiting time, nanoseconds, of all messages whose lookup succeeds.
         wait: Timeout of the listener, seconds.
     """
-    worst = int(waits.served.max(initial=0))
     if worst < 10_000_000:
         return ()
     usual = waits.serves(95)
@@ -518,9 +519,12 @@ def _cures(heard: Heard, waits: Waits, wait: float) -> tuple[Fix, ...]:
     # A rate or a mount is a remedy only if no other transform is as late.
     often = often if waits.is_short_without([link], wait) else ""
     mounts = [one for one in waits.links if not one.moves and not _is_robot(one)]
+    lasts = int(link.sorted_stamps[-1] - link.sorted_stamps[0])
+    recorded = len(link.by_stamp) * link.period / max(1, lasts)
+    is_lossy = recorded < _RECORDED
     mount = Fix(
-        f"or send {several([m.name for m in mounts])} on /tf_static, if these "
-        "transforms, which never moved, are mounts"
+        f"{'' if is_lossy else 'or '}send {several([m.name for m in mounts])} on /tf_static, if "
+        "these transforms, which never moved, are mounts"
     )
     is_mount = link in mounts and waits.is_short_without(mounts, wait)
     wait_for = (
@@ -532,11 +536,22 @@ def _cures(heard: Heard, waits: Waits, wait: float) -> tuple[Fix, ...]:
             f"use a timeout in the lookup: {max(10, rounded_up(usual) // 10**6)} ms are enough for "
             f"95 % of the messages; the longest wait is {span(worst)}"
         )
+    if is_lossy:
+        often = ""
+        wait_for = (
+            f"the recording contains {100 * recorded:.0f} % of the samples that {link.name} has at "
+            f"its usual period of {span(link.period)}: if the recorder lost the others, a listener "
+            "on the robot waits less"
+        )
     return (
         Fix(wait_for),
         *((Fix(f"or {often}") if is_enough else Fix(often),) if often else ()),
         *((mount,) if is_mount else ()),
     )
+
+
+_RECORDED = 0.7
+"""Minimum fraction of a transform's samples in a recording whose waiting times show a timeout."""
 
 
 def _is_robot(link: Track) -> bool:
