@@ -42,7 +42,7 @@ def test_only_a_flip_after_poses_were_held_up_is_a_jump(turns, jumps):
 
 
 def fleet(names: tuple[str, ...], *, ahead: str = "") -> Robot:
-    """Return robots with a map of their own, of which one is 20 minutes ahead."""
+    """Return robots with maps of their own; the clock of one robot is 20 minutes ahead."""
     made = Robot()
     for name in names:
         by = 1200.0 if name == ahead else 0.0

@@ -598,7 +598,7 @@ def _publisher_at(model: Model, track: Track, begin: int, end: int) -> tuple[str
 
 
 _WHOLE = 0.9
-"""Minimum fraction of its usual samples that a stream has in a gap of which it has no part."""
+"""Minimum fraction of the usual samples of a stream during a gap that the stream does not have."""
 
 _LATE = seconds(0.1)
 """Additional latency, nanoseconds, from which the sample after a gap was held up."""

@@ -35,7 +35,7 @@ _NAMED: Final = (
     "geometry_msgs/msg/Twist",
     "geometry_msgs/msg/PointStamped",
 )
-"""Message types of which other processes' topics are listed even if no node here uses the topic."""
+"""Types of other processes' topics that are listed even if no node here uses the topic."""
 
 _PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*", re.ASCII)
 
