@@ -75,7 +75,7 @@ def test_every_program_of_a_page_has_its_output_below_it():
 
 
 @pytest.mark.parametrize("page", [page for page in WITH_BLOCKS if excerpts(page)], ids=named)
-def test_what_is_shown_of_a_file_stands_in_it(page):
+def test_every_excerpt_of_a_file_on_a_page_is_in_that_file(page):
     for name, text in excerpts(page):
         assert text in (ROOT / name).read_text(encoding="utf-8"), name
 

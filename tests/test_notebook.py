@@ -132,7 +132,7 @@ def test_each_value_has_its_form_and_no_name_acts_in_it(tmp_path):
     assert set(lines[3:]) == {"Finding text/html"}
 
 
-def test_what_holds_columns_and_facts_says_in_a_line_what_it_is(tmp_path):
+def test_the_repr_of_edges_samples_and_findings_is_one_short_printable_line(tmp_path):
     path = tmp_path / "run.mcap"
     with tftool.write_recording(path) as recording:
         for tick in range(1, 400):

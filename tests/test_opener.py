@@ -188,7 +188,7 @@ def test_a_scenario_is_played_for_5_s_or_as_far_as_is_asked(tmp_path):
         ("statics.sh", {"joints": {"a": 1.0}}, "leave out --joint a=1"),
     ],
 )
-def test_what_does_not_fit_is_refused(place, options, told, tmp_path, monkeypatch):
+def test_options_that_do_not_fit_the_input_are_refused(place, options, told, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     written(tmp_path / "arm.urdf", URDF)
     written(tmp_path / "statics.sh", STATICS)
@@ -199,7 +199,7 @@ def test_what_does_not_fit_is_refused(place, options, told, tmp_path, monkeypatc
     assert told in str(refused.value)
 
 
-def test_what_is_nothing_is_told():
+def test_an_unknown_scenario_is_refused_with_a_similar_name():
     with pytest.raises(InputError, match="no scenario is named 'turtels'; did you mean 'turtles'"):
         library.open("turtels")
 

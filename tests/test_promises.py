@@ -134,7 +134,7 @@ def test_type_checkers_find_every_promised_name(name):
 
 
 @pytest.mark.parametrize("name", ["diagnose", "diff", "explain", "export", "view"])
-def test_what_takes_a_recording_names_it(name):
+def test_the_annotation_of_a_recording_argument_includes_recording_and_buffer(name):
     """Check the class itself: pyright accepts no cached property for a protocol's one."""
     takes = next(iter(inspect.signature(getattr(tftool, name)).parameters.values())).annotation
     if isinstance(takes, str):

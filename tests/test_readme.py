@@ -85,7 +85,7 @@ def test_the_two_commands_bring_their_own_environment():
     assert blocks[1].endswith(".venv/bin/python -m tests\n")
 
 
-def test_what_is_covered_names_every_package_and_no_other():
+def test_the_table_of_ros_packages_names_every_package_and_no_other():
     section = (DOCS / "reference" / "ros.md").read_text(encoding="utf-8")
     table = "\n".join(line for line in section.splitlines() if line.startswith("| `"))
     last = next(line for line in section.splitlines() if line.startswith("| interfaces"))

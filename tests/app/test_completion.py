@@ -88,7 +88,7 @@ def test_packages_and_their_nodes_and_launch_files_are_offered(
     assert offered("launch", "chase", "") == ["carrot.launch.py"]
 
 
-def test_what_is_no_command_offers_nothing_and_says_nothing(offered):
+def test_completion_of_an_unknown_command_or_after_a_bad_value_is_empty(offered):
     assert offered("nonsense", "") == []
     assert offered("echo", "--domain", "x", "") == []
 

@@ -38,7 +38,7 @@ def test_a_pipe_into_which_no_process_writes_is_refused(pipe):
     assert refused(open_regular, pipe) == "a regular file is needed, not a pipe or a device"
 
 
-def test_what_comes_through_a_pipe_is_read_to_its_end():
+def test_text_from_a_pipe_is_read_to_its_end():
     sent = "größer\r\n" * 20_000
     reading, writing = os.pipe()
 
@@ -70,7 +70,7 @@ def test_files_are_read_whole_folders_and_what_never_ends_are_refused(tmp_path):
     assert answered(lambda: read_named("/dev/null")) == b""
 
 
-def test_what_is_written_into_a_pipe_arrives_where_it_has_a_reader(pipe):
+def test_text_written_into_a_pipe_arrives_at_its_reader(pipe):
     read = []
     reader = threading.Thread(target=lambda: read.append(pipe.read_bytes()), daemon=True)
     kept = os.open(pipe, os.O_RDWR)

@@ -32,7 +32,7 @@ MERGES = "a: &a {x: 1}\n" + "".join(
         ("a: [", "while parsing|expected"),
     ],
 )
-def test_what_is_out_of_bounds_or_no_plain_value_is_refused(text, told):
+def test_yaml_beyond_the_limits_or_with_invalid_values_is_refused(text, told):
     with pytest.raises(yaml.YAMLError, match=told):
         yaml_guard.load(text)
 

@@ -420,7 +420,7 @@ def test_a_callback_that_fails_keeps_nobody_else_from_being_told(buffer, said):
         TransformStamped(1, "world", "turtle1", ((0, 0, 0), (0, 0, 0, 1))),
     ],
 )
-def test_what_is_no_sample_is_refused_by_what_one_is(buffer, sample, static):
+def test_a_value_that_is_no_sample_is_refused_with_the_expected_type(buffer, sample, static):
     put(buffer, 0.5)
     setter = buffer.set_transform_static if static else buffer.set_transform
 

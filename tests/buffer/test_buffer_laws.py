@@ -193,7 +193,7 @@ def test_equal_places_are_apart_by_exactly_nothing(one, other):
 
 
 @given(transforms)
-def test_what_was_stored_comes_back(pose):
+def test_a_stored_transform_comes_back_up_to_the_sign_of_its_quaternion(pose):
     buffer = Buffer()
     buffer.set_transform(TransformStamped(5, "a", "b", pose), "law")
 

@@ -231,7 +231,7 @@ def test_moments_of_32_bits_are_taken(buffer):
     assert found.translations[0].tolist() == [1.5, 0.0, 0.0]
 
 
-def test_what_cannot_be_written_to_can_be_asked_for(buffer):
+def test_a_read_only_array_of_times_is_accepted(buffer):
     times = np.array([seconds(2), seconds(3)])
     times.flags.writeable = False
 
@@ -252,7 +252,7 @@ def test_what_cannot_be_written_to_can_be_asked_for(buffer):
         (np.array([-(2**70)], dtype=object), ValueError, "does not fit 64 bits"),
     ],
 )
-def test_what_is_no_moment_is_refused_with_the_remedy(buffer, times, kind, told):
+def test_invalid_times_are_refused_with_the_remedy(buffer, times, kind, told):
     with pytest.raises(kind, match=told):
         buffer.lookup_transforms("world", "turtle1", times)
 

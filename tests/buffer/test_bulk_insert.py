@@ -146,7 +146,7 @@ def test_a_plan_made_before_sees_what_came_after():
     assert not buffer.can_transform("world", "turtle1")
 
 
-def test_who_waits_is_told():
+def test_a_pending_request_is_answered_by_a_bulk_insert():
     buffer = Buffer(seconds(100))
     told = []
     buffer.request(lambda handle, there: told.append(there), "world", "turtle1", seconds(3))
@@ -272,7 +272,7 @@ def test_no_samples_change_nothing():
         ),
     ],
 )
-def test_what_does_not_fit_is_refused_and_named(change, kind, told):
+def test_columns_of_a_wrong_shape_or_type_are_refused_by_name(change, kind, told):
     stamps, translations, rotations = line(2)
     given = {"stamps": stamps, "translations": translations, "rotations": rotations} | change
 

@@ -51,7 +51,7 @@ def filled(name=str):
 
 
 @pytest.mark.parametrize("kind", [str, Hostile])
-def test_what_is_stored_are_plain_names(kind):
+def test_frame_names_are_stored_as_plain_strings(kind):
     buffer = filled(kind)
 
     assert [type(frame) for frame in buffer.frames()] == [str, str]

@@ -47,7 +47,7 @@ def test_the_other_knows_what_came_up_to_the_moment_and_no_more(whole):
 
 
 @pytest.mark.parametrize("late", [20.5, 60])
-def test_what_is_inserted_into_one_is_not_in_the_other(whole, late):
+def test_a_sample_inserted_into_one_buffer_is_not_in_the_other(whole, late):
     other = lent(whole, 20)
 
     other.set_transform(sample(late, -3), "else")
@@ -64,7 +64,7 @@ def test_before_its_first_sample_a_frame_is_not_known(whole):
     assert lent(whole, 0.5).frames() == []
 
 
-def test_what_has_two_senders_is_not_lent(whole):
+def test_a_frame_with_two_senders_is_not_lent(whole):
     whole.set_transform(sample(90, 1), "another")
 
     other = Buffer(NO_LIMIT)

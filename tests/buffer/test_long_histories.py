@@ -47,7 +47,7 @@ def filled(buffer, count=MANY):
         pytest.param([NEWEST + 200 * PERIOD, NEWEST + NEWEST // 2, NEWEST], id="pruning"),
     ],
 )
-def test_what_is_inserted_after_the_first_question_is_found(stamps):
+def test_samples_inserted_after_the_first_lookup_are_found(stamps):
     twins = Twins(NEWEST + 100 * PERIOD)
     for buffer in twins.pair:
         filled(buffer)
@@ -67,7 +67,7 @@ def test_what_is_inserted_after_the_first_question_is_found(stamps):
         assert repr(ours) == repr(plain)
 
 
-def test_what_was_handed_out_before_stays_as_it_was():
+def test_samples_handed_out_earlier_do_not_change_with_later_inserts():
     buffer = filled(Buffer(10**18))
     buffer.lookup_transform("a", "b", NEWEST // 2)
     other = Buffer(10**18)
@@ -144,7 +144,7 @@ def test_a_history_that_doubles_is_asked_as_well():
 
 
 @pytest.mark.parametrize("which", range(1, 16))
-def test_what_the_collector_runs_while_samples_move_may_insert(which):
+def test_a_sample_inserted_by_a_collector_callback_while_samples_move_is_kept(which):
     history = History(10**18)
     for number in range(1, 101):
         history.insert(number * PERIOD, 0, pose(number))
@@ -258,7 +258,7 @@ def test_samples_may_move_while_those_that_were_borrowed_are_let_go_of(stamp):
     assert len(history) == MANY + 1
 
 
-def test_who_asks_while_samples_are_let_go_of_finds_those_before_or_after():
+def test_a_read_while_samples_are_released_finds_those_before_or_after():
     found = []
 
     def ask(history):

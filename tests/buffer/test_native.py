@@ -109,7 +109,7 @@ def same(ours, plain, tolerance=0.0):
         st.one_of(samples, samples, lookups, lookups, fulls, whether, statics, others), max_size=25
     )
 )
-def test_whatever_is_set_and_asked_both_answer_alike(calls):
+def test_random_calls_give_the_same_results_in_the_kernel_and_in_plain_python(calls):
     twins = Twins(seconds(2))
 
     # At the end, look up every frame in every other frame, which also compares all samples.
@@ -174,7 +174,7 @@ EVEN_TURNS = (
 )
 
 
-def test_what_does_not_turn_on_the_way_is_the_same_to_the_last_bit():
+def test_lookups_between_samples_of_equal_rotation_agree_to_the_last_bit():
     moments = np.array([seconds(1), seconds(1.5), seconds(2)])
     for turns in itertools.product(EVEN_TURNS, repeat=2):
         twins = Twins(seconds(10))
@@ -345,7 +345,7 @@ def test_fields_that_no_history_has_are_survived(data):
     assert door.set_transform(sample) in (True, PLAINLY)
 
 
-def test_what_the_collector_runs_in_the_middle_of_an_insert_is_survived():
+def test_an_insert_survives_changes_made_during_a_garbage_collection():
     from tftool.buffer.history import History
 
     def of_another_authority(senders):
@@ -441,7 +441,7 @@ def test_wrong_arguments_of_a_batch_are_told(arguments):
 @pytest.mark.parametrize(
     "name", ["lookup_transform", "lookup_transform_full", "can_transform", "set_transform"]
 )
-def test_what_is_not_plain_is_asked_plainly(name, arguments):
+def test_arguments_of_the_wrong_number_or_type_are_left_to_plain_python(name, arguments):
     link = object()
     for door in (Bare(), Bare({}, {}), Bare([], []), Bare({"a": {"b": link}}, {"b": link})):
         assert getattr(door, name)(*arguments) == PLAINLY
@@ -478,7 +478,7 @@ class Kept(dict):
 
 
 @pytest.mark.parametrize("name", ["_paths", "_senders", "_listening", "_pending"])
-def test_what_a_door_holds_goes_with_it(name):
+def test_objects_held_by_a_door_are_freed_with_it(name):
     for leads_back in (False, True):
         door, kept = Bare(), Kept()
         setattr(door, name, kept)

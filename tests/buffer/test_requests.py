@@ -208,7 +208,7 @@ def test_cancelling_what_is_not_pending_does_nothing(buffer, told):
     assert told == []
 
 
-def test_what_is_met_already_is_not_kept():
+def test_a_request_that_can_be_answered_at_once_is_not_kept():
     requests = Requests(lambda question, first: (AVAILABLE, ()))
 
     assert requests.add(lambda handle, available: None, ("a", "b", 0)) == NOW

@@ -94,7 +94,7 @@ def test_a_frame_that_cannot_be_asked_for_is_refused_by_name(child, refused):
         Buffer().samples(child)
 
 
-def test_what_is_given_is_a_copy_that_cannot_be_written_to():
+def test_returned_samples_are_a_read_only_copy():
     buffer = Buffer()
     put(buffer, 1)
     held = buffer.samples("base")

@@ -50,7 +50,7 @@ def test_the_latest_twist_is_over_the_last_interval(circling):
     assert found.angular.z == pytest.approx(1.0)
 
 
-def test_what_does_not_move_has_no_twist(circling):
+def test_a_static_frame_has_a_twist_of_zero(circling):
     found = circling.lookup_twist("eye", "world", seconds(1002), seconds(1))
 
     assert found.linear == (0, 0, 0)

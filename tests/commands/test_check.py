@@ -30,7 +30,7 @@ def scenarios(tmp_path, monkeypatch):
     return tmp_path
 
 
-def test_what_holds_ends_with_0(tftool, scenarios):
+def test_a_scenario_whose_expectations_hold_ends_with_status_0(tftool, scenarios):
     result = tftool("check", "good.yaml")
 
     assert (result.status, result.err) == (0, "")
@@ -39,7 +39,7 @@ def test_what_holds_ends_with_0(tftool, scenarios):
     )
 
 
-def test_what_holds_is_told_in_full_to_whoever_asks(tftool, scenarios):
+def test_expectations_that_hold_are_listed_with_verbose(tftool, scenarios):
     result = tftool("check", "good.yaml", "--verbose")
 
     shown = [line.split("  ") for line in result.out.splitlines()]
@@ -49,7 +49,7 @@ def test_what_holds_is_told_in_full_to_whoever_asks(tftool, scenarios):
     ]
 
 
-def test_what_does_not_hold_ends_with_1_and_says_what_was_found_and_when(tftool, scenarios):
+def test_a_failed_expectation_sets_status_1_and_shows_what_was_found_and_when(tftool, scenarios):
     result = tftool("check", "good.yaml", "bad.yaml")
 
     assert (result.status, result.err) == (1, "")
@@ -59,7 +59,7 @@ def test_what_does_not_hold_ends_with_1_and_says_what_was_found_and_when(tftool,
     assert result.out.endswith("\n2 scenarios, 1 failed (bad): 2 of 3 expectations held\n")
 
 
-def test_what_cannot_be_read_ends_with_3_and_the_rest_is_judged(tftool, scenarios):
+def test_unreadable_scenarios_end_with_status_3_and_the_others_are_judged(tftool, scenarios):
     result = tftool("check", "wrong.yaml", "good.yaml", "gone.yaml")
 
     assert result.status == 3

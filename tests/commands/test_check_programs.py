@@ -154,7 +154,7 @@ def test_a_launch_file_that_asks_for_what_is_not_there_fails_with_its_line(tftoo
     assert "UsageError" not in result.out
 
 
-def test_what_programs_print_stays_out_of_the_verdict(tftool, broken):
+def test_the_output_of_programs_goes_to_stderr_and_not_into_the_json(tftool, broken):
     file = broken("import math\n", "import math\nprint('hello')\n")
     result = tftool("check", "turtles", "--run", f"follower={file}", "--json")
 
@@ -187,7 +187,7 @@ def test_a_program_named_like_a_node_lives_beside_it(tftool, broken):
         (["--launch", "pkg_tf carrot.launch.xml sorce_frame:=x"], 2, "mean 'source_frame:=…'"),
     ],
 )  # fmt: skip
-def test_what_cannot_be_judged_is_said_in_one_sentence(tftool, words, status, told):
+def test_check_refuses_invalid_run_and_launch_options_with_a_reason(tftool, words, status, told):
     result = tftool("check", "turtles", *words)
 
     assert result.status == status
@@ -259,7 +259,7 @@ def test_equal_lines_are_shown_once_and_counted_and_others_each(tftool, drawn):
 
 
 @pytest.mark.parametrize("command", ["launch", "check"])
-def test_what_cannot_be_read_in_a_workspace_is_told_where_it_is_asked_for(
+def test_an_unreadable_package_in_a_workspace_is_reported_only_with_verbose(
     tftool, drawn, tmp_path, monkeypatch, command
 ):
     (tmp_path / "odd").mkdir()

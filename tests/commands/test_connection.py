@@ -60,7 +60,7 @@ def test_a_domain_in_the_environment_that_is_none_is_named(tftool, monkeypatch, 
         (["--domain", "233"], "233"),
     ],
 )
-def test_what_contradicts_itself_is_wrong_usage(tftool, words, told):
+def test_invalid_connection_options_are_refused_with_status_2(tftool, words, told):
     result = tftool("echo", "a", "b", *words)
 
     assert result.status == 2
@@ -184,7 +184,7 @@ def test_demo_without_a_terminal_shares_nothing_and_says_so(tftool):
         (["follow"], "drive"),
     ],
 )
-def test_who_does_something_cannot_only_look(tftool, words, purpose):
+def test_commands_that_publish_or_drive_refuse_read_only(tftool, words, purpose):
     result = tftool(*words, "--read-only")
 
     assert result.status == 2

@@ -99,7 +99,7 @@ def test_an_expectation_that_fails_is_told_and_is_the_exit_status(tftool, tmp_pa
     assert "line 5: at 1 s" in result.out
 
 
-def test_what_was_set_is_said_beside_what_the_expectations_are_written_for(tftool):
+def test_the_summary_names_the_set_arguments_and_those_the_expectations_assume(tftool):
     result = tftool("demo", "turtles", "--source-frame", "nosuch")
 
     assert result.status == 1
@@ -160,7 +160,7 @@ def test_any_argument_can_be_set(tftool):
         (["nosuch"], 3, "nosuch"),
     ],
 )
-def test_what_cannot_be_is_refused_with_a_sentence(tftool, words, status, sentence):
+def test_invalid_demo_arguments_are_refused_with_a_sentence(tftool, words, status, sentence):
     result = tftool("demo", *words)
 
     assert result.status == status
@@ -258,7 +258,7 @@ def test_a_terminal_is_where_all_three_streams_are(monkeypatch, term, lacks):
     assert onscreen.screen_lacks() == (lacks or "stdin is not a terminal")
 
 
-def test_who_looks_on_is_told_why_there_is_no_screen(tftool, simulated, monkeypatch):
+def test_a_dumb_terminal_gets_the_reason_why_there_is_no_screen(tftool, simulated, monkeypatch):
     monkeypatch.setenv("TERM", "dumb")
     quiet = tftool("demo", "static")
     monkeypatch.setattr("sys.stdout.isatty", lambda: True)

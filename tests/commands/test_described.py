@@ -142,7 +142,7 @@ def test_tree_tells_programs_which_frames_move(tftool, robot):
         (["--argument", "size=2"], "write NAME:=VALUE"),
     ],
 )
-def test_what_fits_no_joint_or_argument_is_refused(tftool, robot, words, told):
+def test_a_description_refuses_unknown_joints_and_wrong_values(tftool, robot, words, told):
     slide = '<joint name="slide" type="prismatic"><parent link="foot"/><child link="tray"/>'
     limit = (
         '<limit lower="0" upper="1" effort="1" velocity="1"/></joint><link name="tray"/></robot>'
@@ -213,7 +213,7 @@ def test_a_recording_takes_the_description_it_lacks(tftool, recording, robot):
         (["--urdf", "none.urdf"], 3, "cannot read 'none.urdf'"),
     ],
 )
-def test_what_a_recording_cannot_take_is_refused(tftool, recording, words, status, told):
+def test_a_recording_refuses_joints_and_xacro_arguments(tftool, recording, words, status, told):
     result = tftool("tree", recording, *words)
 
     assert result.status == status

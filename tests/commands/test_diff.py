@@ -78,7 +78,7 @@ def test_markdown_is_a_table_in_which_no_name_acts(tftool, tmp_path):
     assert "\x1b" not in out
 
 
-def test_what_moves_tells_its_worst_since_the_start(tftool, tmp_path):
+def test_the_worst_difference_of_a_moving_frame_has_its_time_since_the_start(tftool, tmp_path):
     library.export(frames(), path=tmp_path / "a.mcap")
     library.export(frames(off=0.02), path=tmp_path / "b.mcap")
 
@@ -151,7 +151,7 @@ def test_joints_are_compared_between_descriptions_but_not_with_a_recording(tftoo
         (["A", "A", "--align", "end"], 2, "end"),
     ],
 )
-def test_what_does_not_fit_is_said(tftool, simulated, runs, words, status, told):
+def test_diff_refuses_invalid_arguments_with_a_reason(tftool, simulated, runs, words, status, told):
     result = tftool("diff", *[runs[0] if word == "A" else word for word in words])
 
     assert (result.status, told in result.err) == (status, True), result.err

@@ -12,7 +12,7 @@ def test_a_healthy_scenario_has_nothing(tftool):
     assert "nothing found;" in result.out
 
 
-def test_what_is_wrong_is_told_and_is_the_exit_status(tftool):
+def test_an_error_is_reported_with_status_1_unless_options_allow_it(tftool):
     result = tftool("doctor", "lost_leader")
     assert result.status == 1
     assert "error  edge-stopped: turtle1 in world stops before the end\n" in result.out
@@ -129,7 +129,7 @@ def test_a_scenario_expects_what_the_doctor_says(tftool, tmp_path, doctor, expec
     )
 
 
-def test_what_is_clean_at_one_moment_need_not_be_at_another(tftool, tmp_path):
+def test_a_doctor_expectation_is_judged_at_its_own_time(tftool, tmp_path):
     lost = Path(__file__).parents[2] / "scenarios" / "lost_leader.yaml"
     text = lost.read_text(encoding="utf-8")
     more = "  - {at: 4 s, doctor: clean}\n  - {at: 20 s, doctor: {ignore: [coverage]}}\n"
@@ -171,7 +171,7 @@ def test_a_scenario_s_own_list_is_kept_by_the_doctor(tftool, tmp_path):
     assert {"id": "two-parents", "reason": "left out, as was asked"} in found["skipped"]
 
 
-def test_what_was_not_looked_at_is_not_called_fine(tftool):
+def test_checks_that_are_not_selected_are_listed_as_skipped(tftool):
     result = tftool("doctor", "turtles", "--select", "shape")
     rows = [line.split(maxsplit=2) for line in result.out.splitlines()]
     assert ["-", "publishers", "skipped, not selected"] in rows

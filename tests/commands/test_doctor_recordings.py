@@ -39,7 +39,7 @@ def test_a_healthy_recording_has_nothing(tftool, tmp_path):
 
 
 @pytest.mark.parametrize("write", [write_mcap, write_rosbag1])
-def test_what_is_wrong_in_one_is_told_by_every_command_that_looks(tftool, tmp_path, write):
+def test_an_unknown_frame_id_is_reported_by_doctor_info_and_explain(tftool, tmp_path, write):
     run = write(tmp_path / "run", drive(scans_in="laser_frame"))
     result = tftool("doctor", run, "--json")
     (finding,) = json.loads(result.out)["findings"]
@@ -85,7 +85,7 @@ def test_many_recordings_become_rows_and_a_broken_one_stops_none(tftool, runs, t
 
 
 @pytest.mark.parametrize("suffix", ["jsonl", "csv"])
-def test_what_the_file_holds_is_passed_over_and_half_a_line_is_done_again(
+def test_resume_skips_finished_recordings_and_repeats_an_incomplete_line(
     tftool, runs, tmp_path, suffix
 ):
     output = tmp_path / f"found.{suffix}"

@@ -91,7 +91,7 @@ def test_a_scenario_in_a_file_called_by_a_number_is_a_file(tftool, tmp_path, mon
         (["turtles", "--at", "0.5"], 4, "extrapolation into the past"),
     ],
 )
-def test_what_cannot_be_is_one_sentence_and_a_status(tftool, simulated, given, status, sentence):
+def test_echo_refuses_invalid_arguments_in_one_sentence(tftool, simulated, given, status, sentence):
     result = tftool("echo", "turtle2", "turtle1", *given)
 
     assert result.status == status
@@ -116,7 +116,7 @@ def test_a_name_that_is_no_frame_is_told(tftool, target, source, status, sentenc
     assert "\x1b" not in result.err
 
 
-def test_what_was_meant_is_told_too(tftool):
+def test_an_unknown_frame_is_answered_with_the_closest_existing_name(tftool):
     err = tftool("echo", "turtle1", "turtel2", "turtles", "--at", "2").err
 
     assert err.count("Existing frames so far: turtle1, world, turtle2.") == 1

@@ -54,7 +54,7 @@ def test_a_recording_with_options_of_pose_files_is_named_with_its_article(run, c
     assert "'r1=a.mcap' is an MCAP recording, but" in capsys.readouterr().err
 
 
-def test_what_is_no_recording_is_wrong_usage_as_everywhere(run, tmp_path, capsys):
+def test_edit_and_play_refuse_a_robot_description(run, tmp_path, capsys):
     (tmp_path / "arm.urdf").write_text("<robot name='arm'><link name='base'/></robot>")
 
     assert main(["edit", "arm.urdf", "-o", "b.mcap"]) == 2
@@ -138,7 +138,7 @@ def test_a_dry_run_writes_nothing(run, capsys):
         (["missing.mcap", "-o", "b.mcap"], 3, "There is no file"),
     ],
 )
-def test_what_cannot_be_done_is_said_in_a_sentence_and_leaves_nothing(
+def test_edit_refuses_invalid_arguments_and_leaves_the_folder_unchanged(
     run, capsys, words, status, told
 ):
     before = (run / "a.mcap").read_bytes()

@@ -43,7 +43,7 @@ def test_a_question_before_a_frame_begins_is_told_what_to_ask_for(tftool):
     assert "pruned" not in result.out
 
 
-def test_what_answers_is_status_0(tftool):
+def test_a_lookup_that_answers_ends_with_status_0(tftool):
     result = tftool("explain", "turtle2", "turtle1", "turtles", "--at", "5", "--timeout", "0.01")
     assert result.status == 0
     assert result.out.startswith("turtle1 in turtle2 at 1005.000000000: answers\n")
@@ -87,7 +87,7 @@ def test_a_name_that_is_none_is_explained_too(tftool):
         (["a", "b", "nothing.mcap"], 3, "There is no file"),
     ],
 )
-def test_what_cannot_be_asked_is_refused(tftool, words, status, told):
+def test_explain_refuses_invalid_arguments_with_a_reason(tftool, words, status, told):
     result = tftool("explain", *words)
     assert result.status == status
     assert told in result.err
@@ -125,7 +125,7 @@ def test_programs_get_the_joints_of_a_description(tftool, arm):
     assert [link["joint"] for link in found["links"]] == ["free", "turn"]
 
 
-def test_what_a_description_has_not_is_refused(tftool, arm):
+def test_explain_refuses_a_message_with_a_description_and_a_joint_with_a_scenario(tftool, arm):
     result = tftool("explain", "base", "tool", arm, "--message", "/scan")
     assert result.status == 2
     assert "leave out --message" in result.err

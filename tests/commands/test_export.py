@@ -247,7 +247,7 @@ def test_moments_are_chosen(tftool, run, tmp_path):
     assert stamps("--from", "1700000001.39") == [199 * 7_000_001]
 
 
-def test_what_is_refused_is_left_out_and_said(tftool, run, tmp_path):
+def test_times_without_a_pose_are_left_out_of_the_export_and_counted(tftool, run, tmp_path):
     path = tmp_path / "late.csv"
 
     result = tftool("export", "odom", "base", run, "-o", path, "--every", "0.5", "--to", "2.5")
@@ -395,7 +395,7 @@ def test_protobufs_own_reader_understands_foxgloves_frames(buffer, tmp_path):
 # Errors
 
 
-def test_what_exists_is_kept_unless_forced(tftool, run, tmp_path):
+def test_export_replaces_an_existing_file_only_with_force(tftool, run, tmp_path):
     path = tmp_path / "a.tum"
     path.write_text("precious")
 
@@ -467,7 +467,7 @@ def test_an_output_in_the_folder_that_is_read_can_be_replaced(tftool, run, tmp_p
         (["RUN", "-o", "a.urdf", "--root", "nope"], 4, "nope"),
     ],
 )
-def test_what_does_not_fit_is_said(
+def test_export_refuses_invalid_arguments_and_writes_no_file(
     tftool, simulated, run, tmp_path, monkeypatch, words, status, told
 ):
     monkeypatch.chdir(tmp_path)

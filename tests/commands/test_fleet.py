@@ -81,7 +81,7 @@ def test_parquet_has_a_row_a_finding_and_is_gone_on_with(tftool, fleet, tmp_path
 
 
 @pytest.mark.parametrize("suffix", ["jsonl", "csv", "parquet"])
-def test_what_the_file_held_already_counts_for_the_status(tftool, fleet, tmp_path, suffix):
+def test_resume_counts_earlier_findings_for_the_exit_status(tftool, fleet, tmp_path, suffix):
     """Check that findings in the existing file of an interrupted run also set the exit status."""
     if suffix == "parquet":
         pytest.importorskip("pyarrow.parquet", reason="the extra 'parquet'")
@@ -99,7 +99,7 @@ def test_what_the_file_held_already_counts_for_the_status(tftool, fleet, tmp_pat
 
 
 @pytest.mark.parametrize("suffix", ["jsonl", "csv"])
-def test_what_could_not_be_read_before_counts_as_well(tftool, fleet, tmp_path, suffix):
+def test_resume_keeps_the_status_of_an_unreadable_recording(tftool, fleet, tmp_path, suffix):
     output = tmp_path / f"found.{suffix}"
     broken = fleet / "day1" / "cut.mcap"
     for command in ("doctor", "info"):

@@ -60,7 +60,7 @@ def test_a_delay_beyond_what_is_remembered_is_told_with_what_helps(tftool, simul
         (["base_link", "bob", "robot"], "scenario 'robot' has no turtle simulator"),
     ],
 )
-def test_what_cannot_be_followed_is_wrong_usage(tftool, simulated, words, sentence):
+def test_follow_refuses_invalid_arguments_with_status_2(tftool, simulated, words, sentence):
     result = tftool("follow", "--for", "1", *words)
 
     assert result.status == 2

@@ -240,7 +240,7 @@ def test_the_past_of_a_recording_is_told_from_its_end(tftool, recording):
         (["--read-only"], 2, "which other processes cannot share"),
     ],
 )
-def test_what_a_recording_cannot_give_is_one_sentence(tftool, recording, words, status, told):
+def test_a_recording_refuses_times_outside_it_and_sharing(tftool, recording, words, status, told):
     result = tftool("echo", "world", "a", recording, *words)
 
     assert result.status == status
@@ -263,7 +263,7 @@ def test_the_tree_of_a_recording_is_that_of_the_moment(tftool, recording):
 
 
 @pytest.mark.skipif(not Path("/proc/self/fd").exists(), reason="shows no open files")
-def test_what_was_opened_is_closed_again(tftool, recording):
+def test_a_recording_is_closed_after_success_and_after_failure(tftool, recording):
     tftool("tree", recording)
     tftool("echo", "world", "a", recording, "--at", "99")
 
@@ -271,7 +271,7 @@ def test_what_was_opened_is_closed_again(tftool, recording):
     assert os.path.realpath(recording) not in opened
 
 
-def test_what_is_recorded_is_shown_up_to_the_moment(tftool, recording):
+def test_the_tree_of_a_recording_has_the_poses_at_the_requested_time(tftool, recording):
     told = json.loads(tftool("tree", recording, "--at", "2", "--json").out)
 
     (frame,) = [one for one in told["frames"] if one["frame"] == "a"]

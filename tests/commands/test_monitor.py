@@ -82,7 +82,7 @@ def test_tf2_monitors_own_figures_can_be_had(tftool, simulated):
         (["a", "b", "nosuch"], 3, "no scenario is named 'nosuch'"),
     ],
 )
-def test_what_cannot_be_monitored_says_why(tftool, simulated, words, status, sentence):
+def test_monitor_gives_a_reason_for_invalid_arguments(tftool, simulated, words, status, sentence):
     result = tftool("monitor", *words)
 
     assert result.status == status

@@ -23,7 +23,7 @@ def files(path):
 
 
 @pytest.mark.parametrize("step", STEPS)
-def test_what_is_made_holds_what_its_scenario_expects(tftool, place, step):
+def test_a_new_package_fulfils_its_own_scenario(tftool, place, step):
     assert tftool("new", "my_frames", "--example", step).status == 0
 
     result = tftool(
@@ -93,7 +93,7 @@ def test_a_scenario_is_made_and_holds(tftool, place):
 
 
 @pytest.mark.parametrize("words", [["my_frames"], ["mine.yaml", "--scenario"]])
-def test_what_is_there_already_is_left_alone(tftool, place, words):
+def test_new_refuses_to_overwrite_an_existing_file(tftool, place, words):
     (place / words[0]).write_text("mine")
 
     result = tftool("new", *words)

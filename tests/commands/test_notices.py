@@ -121,9 +121,7 @@ def test_excerpts_of_files_are_shown_as_they_are(monkeypatch):
         "export a b missing.mcap -o x.csv",
     ],
 )
-def test_what_goes_wrong_is_broken_between_words_in_narrow_terminals(
-    monkeypatch, tmp_path, width, words
-):
+def test_error_messages_fit_the_width_of_a_narrow_terminal(monkeypatch, tmp_path, width, words):
     from tftool.app.main import main
 
     (tmp_path / "noise").write_bytes(bytes(range(256)))

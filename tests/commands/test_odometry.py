@@ -102,7 +102,7 @@ def test_a_scenario_has_none(tftool):
 
 
 @pytest.mark.parametrize("command", ["plot", "export"])
-def test_what_samples_a_pair_takes_the_options_of_recordings(tftool, bag, tmp_path, command):
+def test_plot_and_export_answer_from_odometry_only_with_its_option(tftool, bag, tmp_path, command):
     to = ("-o", tmp_path / "path.csv") if command == "export" else ()
     asked = (command, "odom", "base_link", bag, *to, "--no-cache")
     assert tftool(*asked).status != 0

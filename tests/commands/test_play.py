@@ -50,7 +50,7 @@ def test_over_and_over_it_tells_of_every_jump_back(tftool, simulated, run):
         (["--from", "soon"], "'soon' is not a time"),
     ],
 )
-def test_what_cannot_be_played_is_a_sentence(tftool, simulated, run, words, sentence):
+def test_play_refuses_invalid_options_without_a_traceback(tftool, simulated, run, words, sentence):
     result = tftool("play", run, *words)
 
     assert result.status == 2

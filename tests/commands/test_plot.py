@@ -133,7 +133,7 @@ def test_a_line_rises_where_the_value_does(tftool, tmp_path):
     assert len(rows[0]) == 69
 
 
-def test_what_is_refused_is_shaded_and_told(tftool, run):
+def test_times_without_a_pose_are_shaded_and_reported(tftool, run):
     out = tftool("plot", "map", "car", run, "--every", "0.5", "--to", "40", "--only", "x").out
 
     shaded = [line.rstrip().count("░") for line in out.splitlines() if "│" in line]
@@ -256,7 +256,7 @@ def test_without_matplotlib_the_extra_is_named(tftool, run, tmp_path, monkeypatc
         (["map", "car", "RUN", "--rate", "1", "--every", "1"], 2, "leave out all but one"),
     ],
 )
-def test_what_does_not_fit_is_said(tftool, run, tmp_path, monkeypatch, words, status, told):
+def test_plot_refuses_invalid_arguments(tftool, run, tmp_path, monkeypatch, words, status, told):
     monkeypatch.chdir(tmp_path)
 
     result = tftool("plot", *[run if word == "RUN" else word for word in words])

@@ -111,7 +111,7 @@ def test_a_finding_of_the_doctors_ends_it_and_is_said(here, tftool):
         ),
     ],
 )
-def test_what_contradicts_is_refused_before_anything_runs(here, tftool, words, told):
+def test_record_refuses_invalid_arguments_and_keeps_existing_files(here, tftool, words, told):
     (here / "there.mcap").write_bytes(b"precious")
 
     done = tftool("record", "--in", "robot", "--for", "1", *words)

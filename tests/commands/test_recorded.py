@@ -105,7 +105,7 @@ def test_a_cut_recording_is_answered_with_a_warning(tftool, run):
 
 
 @pytest.mark.parametrize("command", [["info"], ["tree"], ["echo", "a", "b"]])
-def test_what_cannot_be_read_is_one_sentence(tftool, tmp_path, command):
+def test_a_recording_with_converted_line_ends_is_refused_with_the_cause(tftool, tmp_path, command):
     file = tmp_path / "run.mcap"
     file.write_bytes(b"\x89MCAP0\n and so on")
 

@@ -79,7 +79,7 @@ def test_without_a_terminal_the_demo_names_what_shows_it(tftool, file):
 
 
 @pytest.mark.parametrize("word", ["--json", "--rate=2", "--for=3", "--source-frame=a"])
-def test_what_makes_a_scenario_run_is_refused(tftool, file, word):
+def test_the_demo_of_a_recording_refuses_options_that_run_a_scenario(tftool, file, word):
     result = tftool("demo", file, word)
 
     assert result.status == 2

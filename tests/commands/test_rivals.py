@@ -33,7 +33,7 @@ def test_two_nodes_that_send_one_child_in_turns_are_named():
 
 
 @pytest.mark.parametrize("senders", [["one"] * 6, ["before"] * 3 + ["after"] * 3])
-def test_who_takes_over_from_another_is_no_rival(senders):
+def test_a_single_sender_and_a_replaced_sender_are_not_rivals(senders):
     buffer = sent(senders)
 
     assert buffer.rivals("robot") == ()

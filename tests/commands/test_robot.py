@@ -31,7 +31,7 @@ def test_a_robot_is_published_without_a_screen(tftool, simulated, robot):
         (["--no-screen", "--read-only"], 2, "--read-only publishes nothing"),
     ],
 )
-def test_what_it_cannot_do_is_said(tftool, simulated, robot, words, status, told):
+def test_robot_refuses_invalid_options_with_a_reason(tftool, simulated, robot, words, status, told):
     result = tftool("robot", robot, *words)
 
     assert result.status == status

@@ -169,7 +169,7 @@ def test_show_args_prints_what_a_file_takes(capsys):
         (["launch", "pkg_tf", "carrot.launch.xml", "--simulated"], 2, "add --for SECONDS"),
     ],
 )
-def test_what_cannot_be_run_is_said_in_one_sentence(capsys, argv, status, told):
+def test_run_and_launch_refuse_invalid_arguments_without_a_traceback(capsys, argv, status, told):
     assert main(argv) == status
 
     said = capsys.readouterr()
@@ -260,7 +260,7 @@ NODE = "import rclpy\nrclpy.init()\nnode = rclpy.create_node('mine')\n"
         ),
     ],
 )
-def test_what_goes_wrong_in_a_node_is_told_with_its_own_line(tmp_path, capsys, code, status, told):
+def test_a_failing_node_is_reported_without_a_traceback(tmp_path, capsys, code, status, told):
     file = tmp_path / "bad.py"
     file.write_text(code)
 
@@ -565,7 +565,7 @@ def test_a_wrong_command_line_is_refused_before_a_world_is_hosted(capsys, words,
         (["--rate", "5", "--ros-args", "-p", "a:=b"], ""),
     ],
 )
-def test_who_seems_to_mean_tftool_by_a_word_for_the_node_is_told(tmp_path, capsys, words, told):
+def test_misplaced_options_are_passed_to_the_node_with_a_notice(tmp_path, capsys, words, told):
     file = tmp_path / "says.py"
     file.write_text("import sys\n" + NODE + "node.get_logger().info(f'{sys.argv[1:]}')\n")
 

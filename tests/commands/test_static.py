@@ -91,7 +91,7 @@ def test_a_quaternion_is_passed_on_as_it_is():
 
 
 @pytest.mark.parametrize("word", ["--help", "-h"])
-def test_whoever_asks_for_help_gets_it_whatever_else_is_said(word):
+def test_parse_returns_none_for_a_help_option_after_other_arguments(word):
     assert parse(["1", "2", word]) is None
 
 
@@ -170,7 +170,7 @@ def test_negative_numbers_are_numbers_and_an_equals_sign_may_join(tftool):
         (["--yaw"], "--yaw"),
     ],
 )
-def test_what_cannot_be_published_is_wrong_usage(tftool, given, sentence):
+def test_static_refuses_invalid_arguments_in_one_line_with_status_2(tftool, given, sentence):
     result = tftool("static", "--once", *given)
 
     assert result.status == 2

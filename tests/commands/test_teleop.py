@@ -61,7 +61,7 @@ def test_another_turtle_can_be_driven(tftool):
         (["no name", "--keys", "up"], "'no name' cannot be a turtle's name"),
     ],
 )
-def test_what_cannot_be_pressed_is_refused_with_a_sentence(tftool, words, sentence):
+def test_invalid_keys_and_unknown_turtles_are_refused_with_a_sentence(tftool, words, sentence):
     result = tftool("teleop", *words)
 
     assert result.status == 2

@@ -155,7 +155,7 @@ def test_a_pdf_goes_down_a_pipe_as_bytes():
         (["nosuch"], 3, "no scenario is named 'nosuch'"),
     ],
 )
-def test_what_cannot_be_shown_says_why(tftool, words, status, sentence):
+def test_tree_refuses_invalid_arguments_with_a_reason(tftool, words, status, sentence):
     result = tftool("tree", *words)
 
     assert result.status == status
@@ -251,7 +251,7 @@ script:
 """
 
 
-def test_what_is_wrong_stands_beside_the_frame(tftool, tmp_path):
+def test_a_frame_with_a_finding_is_marked_in_the_tree(tftool, tmp_path):
     file = tmp_path / "trouble.yaml"
     file.write_text(TROUBLE, encoding="utf-8")
     result = tftool("tree", file, "--at", "8")

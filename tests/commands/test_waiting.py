@@ -105,7 +105,7 @@ def test_a_frame_nobody_has_heard_of_is_hinted_at_once_there_are_others(world, c
     ]
 
 
-def test_whoever_has_said_how_long_to_wait_is_not_told_how_to(world, capsys):
+def test_a_wait_with_a_timeout_does_not_suggest_the_timeout_option(world, capsys):
     Mover(world, "a")
 
     _, err, raised = echoed(world, capsys, source="c", patience=seconds(3))
@@ -114,7 +114,7 @@ def test_whoever_has_said_how_long_to_wait_is_not_told_how_to(world, capsys):
     assert isinstance(raised, LookupException)
 
 
-def test_what_comes_at_once_is_waited_for_in_silence(world, capsys):
+def test_a_frame_that_arrives_within_half_a_second_is_awaited_without_a_message(world, capsys):
     Mover(world, "a", start=0.5)
 
     out, err, _ = echoed(world, capsys)
@@ -133,7 +133,7 @@ class Departures:
         return sum(moment <= self.clock.elapsed() for moment in self.moments)
 
 
-def test_what_nobody_sends_any_more_is_waited_for_anew(world, capsys):
+def test_a_frame_whose_publisher_left_is_awaited_until_another_publisher_sends_it(world, capsys):
     Mover(world, "a", end=3.05)
     Mover(world, "a", start=10, name="another mover")
 
@@ -167,7 +167,7 @@ def test_on_a_terminal_what_nobody_sends_any_more_grows_old(world, capsys):
     assert ages == ["0.00 s ago"] * 4 + ["2.0 s ago", "3.0 s ago", "4.0 s ago", "0.00 s ago"]
 
 
-def test_what_goes_on_after_somebody_left_is_not_interrupted(world, capsys):
+def test_echo_continues_when_a_publisher_leaves_and_transforms_still_arrive(world, capsys):
     Mover(world, "a")
 
     out, err, _ = echoed(world, capsys, count=5, departures=Departures(world.clock, 1.5, 2.5))
@@ -185,7 +185,7 @@ def test_a_static_answer_holds_when_its_sender_has_left(world, capsys):
     assert err == ""
 
 
-def test_who_has_said_how_long_to_wait_waits_no_longer_for_who_has_left(world, capsys):
+def test_the_wait_for_a_publisher_that_left_ends_with_the_timeout(world, capsys):
     Mover(world, "a", end=3.05)
 
     out, _, raised = echoed(

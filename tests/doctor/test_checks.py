@@ -173,7 +173,7 @@ def test_one_node_with_two_values_on_tf_and_in_its_odometry_is_one_finding():
 
 
 @pytest.mark.parametrize("speed", [15.0, 40.0])
-def test_what_is_merely_fast_has_one_publisher(speed):
+def test_a_fast_robot_with_one_publisher_has_no_findings(speed):
     made = robot(odometry=False)
     made.moving("odom", "base_link", pose=lambda t: (speed * t, 0.0, 0.0, *NO_TURN))
     assert ids(made) == []
@@ -281,7 +281,7 @@ def test_a_short_recording_does_not_tell_a_mount_from_what_rests():
     assert ids(made, notes=True) == []
 
 
-def test_what_could_move_and_rests_is_no_constant():
+def test_a_resting_frame_that_could_move_is_not_reported_as_static_on_tf():
     # Another wheel moves.
     wheels = long_drive("wheel_left")
     wheels.moving("base_link", "wheel_right", hz=10, pose=drives, end=61.0)
@@ -647,7 +647,7 @@ def test_stamps_and_numbers_of_any_size_are_judged():
     assert {"nan-transform", "zero-stamp"} <= set(ids(made))
 
 
-def test_what_only_came_after_time_went_back_is_left_out():
+def test_data_that_first_came_after_time_went_back_is_left_out():
     made = robot()
     made.log_from = START + LASTS
     made.moving("odom", "base_link")

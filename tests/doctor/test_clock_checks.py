@@ -370,7 +370,7 @@ def test_messages_that_repeat_one_stamp_are_no_matter_of_the_cache_or_the_networ
     assert ids(frozen_marker("odom"), notes=True) == []
 
 
-def test_what_repeats_one_stamp_gets_no_advice_about_clocks_or_the_cache():
+def test_frozen_stamps_are_the_only_findings_and_get_no_advice_about_clocks():
     made = robot(odometry=False, scans=False)
     made.moving("odom", "base_link", end=30.0)
     for tick in range(60):
@@ -439,7 +439,7 @@ def test_a_map_in_odometry_may_jump_as_odometry_in_a_map():
     assert "teleport" not in ids(made)
 
 
-def test_what_is_sent_again_late_repeats_stamps_and_is_not_also_out_of_order():
+def test_samples_sent_again_late_repeat_stamps_and_explain_out_of_order():
     made = robot()
     for tick in range(160):
         made.sent("base_link", "arm", tick * 0.05, drives(tick * 0.05))

@@ -8,7 +8,7 @@ from tftool.doctor.findings import Severity
 
 @pytest.mark.parametrize("salt", [1, 2])
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
-def test_what_is_wrong_is_named_and_nothing_else(case, salt):
+def test_faults_are_reported_with_their_names_and_without_other_warnings(case, salt):
     findings = [one for one in made_by(case, salt).judged().findings if one.because_of is None]
     ids = {one.id for one in findings}
     assert set(case.expect) <= ids

@@ -290,7 +290,7 @@ def late_odometry() -> Robot:
 
 
 @pytest.mark.parametrize("kind", ["Imu", "MagneticField", "NavSatFix"])
-def test_what_a_filter_takes_in_is_not_placed_sample_by_sample(kind):
+def test_inputs_of_a_filter_alone_are_not_reported_as_outrunning_tf(kind):
     made = late_odometry()
     made.hears("/imu", "laser", hz=100, kind=f"sensor_msgs/{kind}")
     assert ids(made, notes=True) == []
@@ -537,7 +537,7 @@ def test_a_gap_explains_waits_only_where_all_that_is_late_falls_into_it():
 
 
 @pytest.mark.parametrize("frame", ["map", "odom"])
-def test_what_is_placed_in_the_world_waits_for_no_transform_of_the_robot(frame):
+def test_a_goal_in_a_world_frame_waits_for_no_transform_of_the_robot(frame):
     made = robot(odometry=False, scans=False)
     made.moving("odom", "base_link", latency=0.005)
     made.moving("map", "odom", 5.0, latency=0.2)
@@ -556,7 +556,7 @@ def test_a_mount_sent_on_tf_that_holds_up_a_sensor_belongs_on_tf_static():
     ("kind", "told"),
     [("visualization_msgs/Marker", []), ("sensor_msgs/PointCloud2", ["sensor-outruns-tf"])],
 )
-def test_what_is_only_drawn_may_come_before_its_transform(kind, told):
+def test_a_marker_may_come_before_its_transform_but_a_point_cloud_may_not(kind, told):
     made = robot(odometry=False, scans=False)
     made.moving("odom", "base_link", 5.0)
     made.hears("/drawn", "base_link", 20.0, kind, latency=0.001)

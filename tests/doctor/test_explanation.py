@@ -24,7 +24,7 @@ def asked(made: Robot, target: str, source: str, at: float, **more: object) -> E
     return traced(model, Question(target, source, T + seconds(at), **more))
 
 
-def test_what_has_not_come_yet_is_told_with_the_wait_that_serves_it():
+def test_a_transform_that_has_not_come_yet_is_explained_with_the_wait_needed():
     made = robot(odometry=False, scans=False)
     made.moving("odom", "base_link", hz=5, latency=0.25)
     made.hears("/scan", "laser", hz=20)
@@ -129,7 +129,7 @@ def test_waiting_so_long_answers():
     assert not asked(made, "odom", "laser", 4.25, timeout=seconds(0.384)).available
 
 
-def test_what_was_dropped_needs_a_larger_cache_and_that_much_is_enough():
+def test_a_dropped_sample_needs_a_larger_cache_and_the_size_told_is_just_enough():
     made = robot(odometry=False, scans=False)
     made.moving("odom", "base_link", end=20.0)
     made.hears("/cloud", "laser", kind="sensor_msgs/PointCloud2", hz=1, end=6.0, latency=13.0)
@@ -161,7 +161,7 @@ def test_a_text_that_quotes_a_link_off_the_way_is_said_to_mislead():
     assert "quotes 1750000008.900, a time of odom, but odom is not on the path" in found.why[-1]
 
 
-def test_what_is_older_than_the_first_data_can_never_be_placed():
+def test_a_lookup_before_the_first_data_of_a_link_can_never_be_answered():
     made = robot()
     made.moving("map", "odom", hz=20, pose=stands, offset=1.0)
 
@@ -256,7 +256,7 @@ def test_names_and_joins_that_are_missing(target, source, cause, told):
     assert found.remedies[0].text == told
 
 
-def test_what_works_says_what_cannot_be_seen_from_here():
+def test_a_lookup_that_works_asks_whether_the_node_has_a_listener():
     found = asked(robot(), "odom", "laser", 4.0)
     assert (found.available, found.cause, found.check) == (True, Cause.WORKS, None)
     assert "does the node have a TransformListener" in found.why[0]
@@ -330,7 +330,7 @@ def test_a_session_tells_for_how_long_a_lookup_would_have_failed(begin, share):
     assert (told in found.why) is bool(share)
 
 
-def test_what_never_answered_in_a_session_failed_all_the_time():
+def test_a_lookup_that_never_worked_in_a_session_failed_100_percent_of_the_time():
     model = Model(robot().evidence())
     question = Question("odom", "nowhere")
     found = over_time(model, question, traced(model, question))

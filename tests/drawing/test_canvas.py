@@ -91,7 +91,7 @@ def style_at(lines, column, row):
     st.booleans(),
     st.booleans(),
 )
-def test_whatever_there_is_every_line_is_exactly_as_wide_as_asked(
+def test_every_line_of_any_picture_has_exactly_the_requested_width(
     columns, rows, frames, trail, ascii_only, are_turtles
 ):
     frames = tuple(
@@ -229,7 +229,7 @@ def test_a_wide_pen_draws_a_wide_trail():
     assert len({row for _, row in thin}) <= 2
 
 
-def test_what_lies_outside_of_the_field_is_cut_off():
+def test_strokes_are_cut_off_at_the_edges_of_the_field():
     through = stroke(-1e12, CENTRE, 1e12, CENTRE)
     beside = stroke(-5.0, 20.0, -1.0, 30.0)
 

@@ -121,7 +121,7 @@ def test_guides_are_dim_whatever_the_colour_of_the_frame():
         assert line.style == ""
 
 
-def test_what_is_wrong_stands_at_the_end_and_its_age_is_amber_then_red():
+def test_marks_end_their_rows_and_ages_of_stopped_frames_are_yellow_then_red():
     old, older = moving("old", "world", newest=seconds(1009)), moving("older", "world", newest=0)
     picture = snapshot(root("world"), old, older, moving("cup", "world"))
     marks = {

@@ -10,7 +10,7 @@ from tftool.drawing.difference_view import lines
 
 
 @pytest.mark.parametrize("width", [40, 50, 60])
-def test_what_has_no_room_stands_below_its_link(width):
+def test_differences_are_written_below_their_links_where_the_width_is_too_small(width):
     moved = Transform((0.1, 0.2, 0.3125))
     found = tftool.diff(frames(), frames(off=0.02, laser=moved))
     wide = lines(found)

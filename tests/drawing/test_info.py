@@ -89,7 +89,7 @@ def held(source, **facts):
     return {"source": source, "unreadable": None, "damage": [], "trees": 1, **row, **facts}
 
 
-def test_what_is_wrong_with_some_of_several_recordings_stands_whole_below_the_table():
+def test_damaged_and_unreadable_recordings_are_explained_in_full_below_the_table():
     rows = [
         held("run.mcap"),
         held("cut.mcap", damage=["The file ends in the middle of a chunk.", "It has no index."]),

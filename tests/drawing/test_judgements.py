@@ -62,7 +62,7 @@ def test_a_scenario_is_one_line_and_only_what_failed_is_told_in_full():
     ]
 
 
-def test_what_could_not_be_read_has_no_expectations_to_count():
+def test_the_brief_report_of_an_unreadable_scenario_has_no_count_of_expectations():
     unreadable = Report("own", "own.yaml", (), failure="own.yaml has 2 mistakes:\nand more")
 
     assert brief(unreadable) == ["own  FAILED  own.yaml has 2 mistakes", ""]

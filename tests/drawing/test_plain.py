@@ -18,7 +18,7 @@ from tftool.drawing.table_columns import fitted, padded, plain
         ("☀\ufe0f", "☀"),
     ],
 )
-def test_what_would_act_on_a_terminal_is_only_shown(text, shown):
+def test_control_and_invisible_characters_are_replaced_or_removed(text, shown):
     assert plain(text) == shown
 
 

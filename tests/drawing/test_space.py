@@ -54,7 +54,7 @@ def test_surfaces_that_cross_are_cut_where_they_cross():
     assert (found.owners[:, 4:] >= 2).all()
 
 
-def test_what_is_outside_or_nowhere_is_not_drawn():
+def test_triangles_outside_the_picture_or_with_nan_corners_are_not_drawn():
     corners = np.concatenate([square(0.0) + 100, np.full((3, 3), np.nan, np.float32)])
     found = rasterise(corners, np.array([[0, 1, 2], [4, 5, 6], [0, 0, 1]]), 8, 8)
 

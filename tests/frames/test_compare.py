@@ -55,7 +55,7 @@ def test_a_static_is_measured_in_millimetres_and_degrees():
     assert tftool.diff(frames(), frames(laser=moved), mm=12, deg=0.6)
 
 
-def test_what_moves_is_measured_with_its_worst_and_when():
+def test_a_moving_link_is_measured_with_its_worst_displacement_and_when():
     found = tftool.diff(frames(), frames(off=0.02))
 
     (one,) = found.changed
@@ -203,7 +203,7 @@ def test_files_of_every_kind_are_compared_with_each_other(tmp_path):
             assert laser.displacement.millimetres < 1e-9
 
 
-def test_what_has_no_frames_is_refused(tmp_path):
+def test_inputs_without_frames_are_refused(tmp_path):
     with pytest.raises(InputError, match="A has no frames"):
         tftool.diff(Buffer(), frames())
     (tmp_path / "s.yaml").write_text("nodes: []\n")
@@ -221,7 +221,7 @@ def test_every_moment_of_a_long_recording_need_not_be_asked(monkeypatch):
 
 
 @pytest.mark.filterwarnings("error")
-def test_what_lies_beyond_all_numbers_is_infinitely_far_without_a_warning():
+def test_displacements_that_overflow_are_infinite_without_a_warning():
     far = Transform((1e300, 0.2, 0.3), quaternion_from_rpy(0.1, 0.2, 0.3))
 
     (still,) = tftool.diff(frames(), frames(laser=far)).changed

@@ -30,7 +30,7 @@ def test_rows_are_those_of_python(numbers):
 
 
 @pytest.mark.parametrize("number", EDGES)
-def test_what_lies_at_an_edge_is_written_as_python_does(number):
+def test_edge_values_are_written_as_python_does_but_never_as_minus_zero(number):
     assert trajectory_files.rows_as_text(np.array([[number, number]])).decode() == (
         f"{exactly(number)},{exactly(number)}\n"
     )
@@ -64,7 +64,7 @@ def test_other_decimals_are_written_one_by_one():
     assert not any("e" in word for word in full)
 
 
-def test_what_is_too_large_for_the_fast_way_is_known():
+def test_numbers_too_large_for_the_fast_way_and_nan_do_not_fit():
     assert trajectory_files.fits(np.array([[8.9e9]]))
     assert not trajectory_files.fits(np.array([[9.1e9]]))
     assert not trajectory_files.fits(np.array([[np.nan]]))

@@ -53,7 +53,7 @@ def test_a_period_begins_at_the_start(buffer):
     assert (found.path.stamps / SECOND).tolist() == [2.0, 2.25, 2.5, 2.75, 3.0]
 
 
-def test_what_is_refused_is_told_in_runs(buffer):
+def test_refused_moments_are_reported_in_runs_with_their_reason(buffer):
     found = sample(buffer, "map", "laser", Moments(period=SECOND // 2))
 
     # base ends at 5 s, and odom ends at 6 s.

@@ -34,7 +34,7 @@ def curves(found, *names, start=SECOND):
     }
 
 
-def test_what_is_drawn_of_a_circle_is_known():
+def test_curves_of_a_circle_have_its_distance_speed_turn_rate_and_yaw():
     found = sample(circling(np.arange(1.0, 21.0, 0.05)), "map", "car")
 
     drawn = curves([found])
@@ -77,7 +77,7 @@ def test_a_long_silence_is_a_gap():
     assert 2.9 <= drawn.times[np.flatnonzero(np.isnan(drawn.values))[0]] + 1.0 <= 8.0
 
 
-def test_what_is_refused_is_a_span_with_its_reason():
+def test_refused_moments_become_a_span_with_its_reason():
     buffer = circling(np.arange(1.0, 3.0, 0.1))
     found = sample(buffer, "map", "car", Moments(end=4 * SECOND, period=SECOND // 2))
 

@@ -76,7 +76,7 @@ def test_a_homogeneous_matrix_is_read_by_its_upper_left():
         (7, "three rows"),
     ],
 )
-def test_what_is_no_rotation_matrix_is_refused(matrix, told):
+def test_a_matrix_that_is_not_a_rotation_is_refused(matrix, told):
     with pytest.raises(ValueError, match=told):
         conversions.quaternion_from_matrix(matrix)
 

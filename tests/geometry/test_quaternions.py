@@ -108,7 +108,7 @@ def test_small_turns_keep_all_their_digits(angle):
         (1e-160, 0.0, 0.0, 0.0),
     ],
 )
-def test_what_has_no_direction_has_no_unit(hopeless):
+def test_the_unit_of_a_zero_tiny_or_non_finite_quaternion_is_nan(hopeless):
     assert all(math.isnan(part) for part in quaternions.unit(hopeless))
 
 

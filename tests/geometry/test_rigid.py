@@ -82,7 +82,7 @@ def test_a_transform_is_a_value():
         ((1, 2, 3), (0, 0, 0, 0), r"the identity is \(0, 0, 0, 1\)"),
     ],
 )
-def test_what_is_no_transform_is_refused_with_a_sentence(translation, rotation, told):
+def test_an_invalid_translation_or_rotation_is_refused_with_the_reason(translation, rotation, told):
     with pytest.raises(ValueError, match=told):
         Transform(translation, rotation)
 

@@ -111,7 +111,7 @@ def test_a_pose_is_read_however_it_is_pasted(text):
         ("7" * (2 << 20), None, "longer than"),
     ],
 )
-def test_what_is_no_rotation_is_refused_with_the_reason(text, form, told):
+def test_an_invalid_or_ambiguous_rotation_is_refused_with_the_reason(text, form, told):
     with pytest.raises(UsageError, match=told):
         read(text, form)
 

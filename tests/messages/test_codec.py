@@ -160,7 +160,7 @@ def test_every_type_is_read_in_big_endian_too(store, full):
     assert codec(type(message)).decode(payload) == message
 
 
-def test_what_is_read_has_the_kinds_of_containers_that_ros_2_gives():
+def test_decoded_sequences_have_the_container_types_of_ros_2():
     scan = INTERFACES.message("sensor_msgs/LaserScan")
     pose = INTERFACES.message("geometry_msgs/PoseWithCovariance")
 
@@ -328,7 +328,7 @@ def test_arrays_of_any_size_and_kind_are_written_as_they_lie_in_memory(store, la
     assert expected[-1] == 7
 
 
-def test_what_was_read_does_not_change_with_the_bytes_it_was_read_from():
+def test_a_decoded_message_does_not_change_with_the_bytes_it_was_decoded_from():
     kind = made("uint8[] data\nfloat64[3] fixed\nstring name")
     raw = bytearray(Codec(kind).encode(kind(data=[1, 2], fixed=[1.0, 2.0, 3.0], name="a")))
 

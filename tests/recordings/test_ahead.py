@@ -52,7 +52,7 @@ def test_pieces_come_in_order_and_whole(method):
 
 
 @pytest.mark.parametrize("method", PACK)
-def test_what_is_wrong_is_told_as_without_threads(method):
+def test_damaged_pieces_give_the_same_outcome_as_without_threads(method):
     sound = PACK[method](TEXTS[5])
     size = len(TEXTS[5])
     pieces = [
@@ -101,7 +101,7 @@ def test_reading_that_ends_early_ends_its_threads():
     assert threading.active_count() == before
 
 
-def test_what_cannot_be_read_is_told_when_it_is_asked_for():
+def test_a_read_error_is_raised_when_the_piece_is_asked_for():
     def nothing():
         raise InputError("the file was shortened")
 
@@ -110,7 +110,7 @@ def test_what_cannot_be_read_is_told_when_it_is_asked_for():
         assert [outcome(one.result) for one in coming] == ["the file was shortened"] * len(coming)
 
 
-def test_who_would_have_to_wait_unpacks_a_piece_behind():
+def test_a_caller_that_would_have_to_wait_unpacks_a_later_piece_itself():
     asking, helped = threading.current_thread(), threading.Event()
 
     def read():

@@ -105,7 +105,7 @@ def test_garbage_in_the_cache_is_as_if_it_were_not_there(file, cache, seed):
 
 
 @pytest.mark.parametrize("make", [getattr(os, "mkfifo", os.mkdir), os.mkdir])
-def test_what_is_no_file_in_an_entrys_place_is_passed_over_and_left_alone(file, cache, make):
+def test_a_folder_or_pipe_in_place_of_an_entry_is_passed_over_and_left_alone(file, cache, make):
     entry = cache.folder / f"{key_of(find(str(file)))}.columns"
     cache.folder.mkdir()
     make(entry)
@@ -130,7 +130,7 @@ def test_an_entry_of_another_recording_is_none_of_this(file, cache, tmp_path):
     assert transforms_of(file, cache)[1]
 
 
-def test_what_was_not_used_for_longest_goes_first(file, tmp_path):
+def test_the_least_recently_used_entries_are_removed_first(file, tmp_path):
     whole = transforms_of(file)[0]
     size = sum(len(edge) for edge in whole.edges) * 68
     cache = ColumnCache(tmp_path / "cache", most_bytes=3 * size + 20_000)
@@ -144,7 +144,7 @@ def test_what_was_not_used_for_longest_goes_first(file, tmp_path):
     assert sum(entry.stat().st_size for entry in cache.folder.iterdir()) <= 3 * size + 20_000
 
 
-def test_what_is_larger_than_the_cache_is_not_kept(file, tmp_path):
+def test_an_entry_larger_than_the_cache_is_not_kept(file, tmp_path):
     cache = ColumnCache(tmp_path / "cache", most_bytes=1000)
 
     assert not cache.store("key", transforms_of(file)[0])

@@ -98,7 +98,7 @@ def test_a_file_with_flipped_bits_is_answered_or_refused(tmp_path, name):
     "write",
     [lambda p: write_mcap(p / "a.mcap", SENT), lambda p: write_rosbag1(p / "a.bag", SENT)],
 )
-def test_what_was_read_of_a_cut_file_is_a_part_of_the_whole(tmp_path, write, share):
+def test_samples_read_from_a_cut_file_are_the_first_of_the_whole_file(tmp_path, write, share):
     path = write(tmp_path)
     with open_recording(path) as recording:
         whole = {edge.child: edge.records.tolist() for edge in recording.edges}
@@ -322,7 +322,7 @@ def test_a_chunk_that_announces_too_much_is_not_unpacked(tmp_path, size):
         assert any("bytes instead of" in one or "cannot expand" in one for one in recording.damage)
 
 
-def test_what_a_damaged_piece_takes_that_is_not_installed_is_told(monkeypatch):
+def test_a_damaged_piece_names_the_missing_package_that_unpacks_it(monkeypatch):
     packed = zstandard.ZstdCompressor().compress(b"text" * 100)
     monkeypatch.setitem(sys.modules, "zstandard", None)
 
@@ -385,7 +385,7 @@ def test_of_a_piece_that_becomes_much_more_than_it_says_no_more_is_made(pack):
         (rosbag1_records.records_in, "header would have 0 bytes"),
     ],
 )
-def test_what_is_no_record_ends_a_chunk(records_in, told):
+def test_zero_bytes_in_a_chunk_are_refused_as_no_record(records_in, told):
     with pytest.raises(InputError, match=told):
         list(records_in(bytes(100)))
 

@@ -60,7 +60,7 @@ def test_a_database_is_known_by_its_content(tmp_path):
         (b"\x07\x1f about: noise", "neither a recording"),
     ],
 )
-def test_what_is_no_source_is_refused_with_what_it_is(tmp_path, content, told):
+def test_a_file_that_is_no_source_is_refused_with_what_it_is(tmp_path, content, told):
     path = tmp_path / "run.mcap"
     path.write_bytes(content)
 
@@ -192,7 +192,7 @@ def test_a_scenario_of_signs_that_are_cut_where_the_first_bytes_end_is_one(tmp_p
         assert find(str(tmp_path / "s.yaml")).kind is Kind.SCENARIO
 
 
-def test_what_cannot_be_looked_at_in_a_folder_keeps_nothing_from_being_found(tmp_path):
+def test_broken_links_in_a_folder_do_not_keep_a_recording_from_being_found(tmp_path):
     folder = tmp_path / "all"
     folder.mkdir()
     (folder / "nothing").symlink_to("nowhere")

@@ -50,7 +50,7 @@ def database(path, sent):
     return base
 
 
-def test_what_stands_in_a_write_ahead_log_is_read_and_nothing_is_written(tmp_path):
+def test_a_write_ahead_log_is_read_and_no_file_is_changed(tmp_path):
     base = database(tmp_path / "live.db3", SENT)
     # The state that a killed recorder leaves
     place = tmp_path / "killed"
@@ -157,7 +157,7 @@ def test_a_message_outside_of_chunks_that_is_too_large_is_left_out_and_told(tmp_
 
 @pytest.mark.parametrize("write", [plain_mcap, write_bag], ids=["mcap", "rosbag1"])
 @pytest.mark.parametrize("is_whole", [True, False])
-def test_what_tells_of_a_topic_in_too_many_bytes_is_not_taken(
+def test_a_topic_description_above_the_size_limit_is_not_read(
     tmp_path, monkeypatch, write, is_whole
 ):
     path = write(tmp_path / "run", SENT)
@@ -202,7 +202,7 @@ def changed_bag(data):
     [(plain_mcap, changed_mcap), (write_bag, changed_bag)],
     ids=["mcap", "rosbag1"],
 )
-def test_what_a_damaged_chunk_tells_of_topics_changes_none_that_are_known(tmp_path, write, change):
+def test_a_damaged_chunk_does_not_change_the_known_topics(tmp_path, write, change):
     path = write(tmp_path / "run", SENT)
     with open_recording(path) as recording:
         before = [topic.name for topic in recording.topics]

@@ -45,7 +45,7 @@ def write(path, messages=40, **options):
 
 
 @pytest.mark.parametrize("compression", ["none", "lz4", "zstd"])
-def test_what_is_written_is_read_back_bit_by_bit(tmp_path, compression):
+def test_written_transforms_are_read_back_bit_by_bit(tmp_path, compression):
     path = tmp_path / "a.mcap"
     sent = write(path, compression=compression)
 
@@ -180,7 +180,7 @@ def test_a_place_that_cannot_be_written_is_refused_with_a_sentence(tmp_path):
     assert os.listdir(tmp_path) == []
 
 
-def test_what_a_killed_writer_leaves_is_read_up_to_its_last_chunk(tmp_path):
+def test_a_file_of_a_killed_writer_is_read_up_to_its_last_chunk(tmp_path):
     path = tmp_path / "a.mcap"
     writer = McapWriter(path)
     channel = writer.channel(Channel("/a", "Kind", "json", "jsonschema", b"{}"))

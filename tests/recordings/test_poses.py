@@ -195,7 +195,7 @@ def test_odd_rows_are_counted(tmp_path):
         ("nan nan nan 0 0 0 0 1\n", "the stamp 'nan'"),
     ],
 )
-def test_what_cannot_be_read_is_refused_with_the_place(tmp_path, text, told):
+def test_pose_files_that_cannot_be_read_are_refused_with_the_reason(tmp_path, text, told):
     (tmp_path / "a").write_text(text)
 
     with pytest.raises(InputError, match=told):
@@ -251,7 +251,7 @@ def test_options_of_pose_files_are_refused_elsewhere(tftool):
 
 
 @pytest.mark.parametrize("form", ["tum", "kitti", "euroc", "csv", "npz", "parquet"])
-def test_what_export_writes_is_read_again(tftool, in_folder, tmp_path, form):
+def test_exported_poses_are_read_back_within_rounding(tftool, in_folder, tmp_path, form):
     if form == "parquet":
         pytest.importorskip("pyarrow")
     noise = np.random.default_rng(5)

@@ -95,7 +95,7 @@ def test_samples_are_what_was_recorded(tmp_path):
     assert not samples.static.any()
 
 
-def test_what_tf2_refuses_is_left_out_and_told(tmp_path):
+def test_samples_that_tf2_refuses_are_left_out_and_counted(tmp_path):
     start = 100 * SECOND
     sound = numbers(3)
     nan = (math.nan, *sound[1:])
@@ -139,7 +139,7 @@ def test_of_moving_and_static_what_came_last_counts(tmp_path):
         assert recording.buffer.can_transform("base", "arm", 2 * SECOND)
 
 
-def test_what_is_not_there_is_refused_with_what_is(tmp_path):
+def test_missing_topics_headers_frames_and_files_are_refused(tmp_path):
     with opened(tmp_path, SENT) as recording:
         with pytest.raises(InputError, match="No topic '/scam' was recorded; did you mean /scan"):
             recording.headers("/scam")

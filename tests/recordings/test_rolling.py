@@ -183,7 +183,7 @@ def test_a_full_disk_is_said_and_what_was_written_can_be_read(tmp_path):
     assert found == list(range(len(found)))
 
 
-def test_what_is_there_is_replaced_only_when_asked_to(tmp_path):
+def test_an_existing_file_is_replaced_only_with_force_and_when_closed(tmp_path):
     path = tmp_path / "a.mcap"
     path.write_bytes(b"precious")
 

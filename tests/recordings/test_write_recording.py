@@ -30,7 +30,7 @@ def sample(stamp, parent, child, seed):
 
 
 @pytest.mark.parametrize(("name", "options"), NAMES)
-def test_what_is_written_is_read_back(tmp_path, name, options):
+def test_a_written_recording_is_read_back(tmp_path, name, options):
     path = tmp_path / name
     mount = sample(0, "base", "laser", 1)
     drive = [sample(START + tick * 1000, "odom", "base", tick + 2) for tick in range(50)]
@@ -80,7 +80,7 @@ def test_rosbags_reads_it(tmp_path, name, options):
     assert latched in ({}, {"/tf": "VOLATILE", "/tf_static": "TRANSIENT_LOCAL"})
 
 
-def test_what_cannot_be_written_leaves_nothing(tmp_path):
+def test_a_recording_that_cannot_be_written_leaves_no_files(tmp_path):
     with pytest.raises(UsageError, match="does not end in the suffix of a recording"):
         tftool.write_recording(tmp_path / "a.txt")
     with pytest.raises(UsageError, match="not a compression of ROS 1 bags"):

@@ -68,7 +68,7 @@ def test_the_link_is_read_whatever_file_publishes_it(tmp_path, name):
     assert abs(held.rotation.z) == 1.0
 
 
-def test_what_is_computed_is_passed_over_and_said(tmp_path):
+def test_a_publisher_with_computed_arguments_is_ignored_with_a_note(tmp_path):
     path = tmp_path / "some.launch.py"
     path.write_text(
         FILES["numbers.launch.py"]
@@ -94,7 +94,7 @@ def test_what_is_computed_is_passed_over_and_said(tmp_path):
          "computed at run time"),
     ],
 )  # fmt: skip
-def test_what_cannot_be_read_is_said(tmp_path, name, text, told):
+def test_a_file_without_readable_transforms_is_refused_with_the_reason(tmp_path, name, text, told):
     path = tmp_path / name
     path.write_text(text)
 

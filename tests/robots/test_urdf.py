@@ -76,7 +76,7 @@ def test_a_description_gives_links_and_joints():
     assert not arm.joints["flange"].moves
 
 
-def test_what_a_link_looks_like_is_read():
+def test_the_visuals_collisions_and_mass_of_a_link_are_read():
     upper = parse(ARM).links["upper"]
 
     tube, mesh = upper.visuals
@@ -143,7 +143,7 @@ def test_every_mistake_is_reported_at_once_in_the_order_of_the_file():
         ('rgba="0.5 0.5 0.5 1"', 'rgba="grey"', "3:33", "'grey' is not a finite number"),
     ],
 )
-def test_what_moves_no_frame_is_noted_and_left_out_as_robots_do(before, after, place, told):
+def test_a_mistake_that_moves_no_frame_is_noted_and_left_out(before, after, place, told):
     text = ARM.replace(before, after, 1)
     assert text != ARM
 
@@ -215,7 +215,7 @@ def test_several_roots_are_named_with_the_remedy():
         '<!DOCTYPE r [<!ENTITY a "aa"><!ENTITY b "&a;&a;">]><robot name="&b;"/>',
     ],
 )
-def test_what_is_no_description_is_refused_with_a_place(text):
+def test_an_invalid_description_is_refused_with_the_line_of_its_mistake(text):
     assert refused(text).mistakes[0].line >= 1
 
 
@@ -424,7 +424,7 @@ def test_xacro_without_bound_ends(tmp_path, monkeypatch, expression, told):
         load_description(path)
 
 
-def test_what_xacro_includes_lies_beside_the_file_wherever_it_is_read_from(tmp_path, monkeypatch):
+def test_xacro_includes_are_found_beside_the_file_from_any_working_directory(tmp_path, monkeypatch):
     pytest.importorskip("xacrodoc", reason="the extra 'xacro' is not installed")
     named = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
     include = '<xacro:include filename="{}"/>'

@@ -280,7 +280,7 @@ def test_a_cancellation_that_is_never_decided_is_refused_when_its_server_leaves(
     assert finish(client, answer).return_code == 1
 
 
-def test_who_serves_an_action_and_who_asks_for_it_are_known(node):
+def test_servers_and_clients_of_an_action_are_listed_by_node_name(node):
     import rclpy
     from action_tutorials_interfaces.action import Fibonacci
     from rclpy.action import (

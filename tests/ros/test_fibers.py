@@ -47,7 +47,7 @@ def test_a_fiber_is_given_what_it_asks_for(clock):
     assert given[1] == seconds(3) if strict else given[1] >= seconds(3)
 
 
-def test_what_a_request_raises_is_raised_where_it_was_asked():
+def test_an_exception_in_a_request_is_raised_in_the_fiber_that_asked():
     def body():
         with pytest.raises(ZeroDivisionError):
             fibers.current().ask(lambda: 1 / 0)
@@ -57,7 +57,7 @@ def test_what_a_request_raises_is_raised_where_it_was_asked():
     assert fiber.error is None
 
 
-def test_what_a_body_raises_is_kept():
+def test_an_exception_in_a_body_is_kept_as_the_error_of_its_fiber():
     (fiber,) = drive(SimClock(), lambda: 1 / 0)
 
     assert isinstance(fiber.error, ZeroDivisionError)

@@ -68,7 +68,7 @@ def test_the_subscriptions_of_other_processes_are_counted_and_described(node, ro
     assert (seen.node_name, seen.node_namespace) == ("far", "/")
 
 
-def test_what_one_node_has_can_be_asked_by_its_name(node):
+def test_publishers_subscriptions_services_and_clients_are_listed_by_node_name(node):
     import rclpy
     from rclpy.node import NodeNameNonExistentError
     from std_msgs.msg import String

@@ -92,7 +92,7 @@ def test_a_launch_file_that_cmake_does_not_install_is_told(tftool, package):
     assert "install(" not in tftool("check", "--as-ros", "chase").out
 
 
-def test_what_only_running_setup_py_would_tell_is_not_judged(tftool, package):
+def test_data_files_computed_by_a_function_in_setup_py_are_not_judged(tftool, package):
     change(package / "setup.py", 'glob("launch/*.launch.py")', "list_launch_files()")
 
     assert tftool("check", "--as-ros", "chase").status == 0

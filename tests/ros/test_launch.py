@@ -267,7 +267,7 @@ def test_handlers_hear_of_starts_and_can_be_taken_away(tmp_path):
     assert done.said("launch") == ["true-1", "last", "shutting down: enough"]
 
 
-def test_who_waits_for_a_processs_end_may_be_named_after_it(tmp_path):
+def test_an_exit_handler_registered_after_its_process_is_still_called(tmp_path):
     done = described(
         tmp_path,
         "(first := ExecuteProcess(cmd=['true']))",
@@ -285,7 +285,7 @@ def test_who_waits_for_a_processs_end_may_be_named_after_it(tmp_path):
         "Node(package='pkg_tf', executable='turtle_tf_broadcaster')",
     ],
 )
-def test_who_waits_for_a_processs_start_may_be_named_after_it(tmp_path, started):
+def test_a_start_handler_registered_after_its_process_is_still_called(tmp_path, started):
     done = described(
         tmp_path,
         f"(first := {started})",
@@ -304,7 +304,7 @@ def test_who_waits_for_a_processs_start_may_be_named_after_it(tmp_path, started)
         ("Node(package='pkg_tf', executable='rotate', arguments=['0.5'])", 0.5),
     ],
 )
-def test_what_takes_time_is_complete_once_it_has_ended(tmp_path, action, elapsed):
+def test_a_completion_handler_is_called_when_its_process_or_timer_ends(tmp_path, action, elapsed):
     done = described(
         tmp_path,
         f"RegisterEventHandler(OnExecutionComplete(target_action=(first := {action}), "
@@ -319,7 +319,7 @@ def test_what_takes_time_is_complete_once_it_has_ended(tmp_path, action, elapsed
     assert done.elapsed == pytest.approx(elapsed, abs=0.01)
 
 
-def test_who_waits_for_an_actions_completion_too_late_is_told(tmp_path):
+def test_a_completion_handler_registered_after_its_action_is_reported(tmp_path):
     done = described(
         tmp_path,
         "(first := ExecuteProcess(cmd=['true']))",
@@ -407,7 +407,7 @@ def test_a_node_may_be_a_file_of_no_package(tmp_path):
     assert done.said("alone.py-1") == ["process started", "process has finished cleanly"]
 
 
-def test_what_handlers_do_knows_their_event(tmp_path):
+def test_actions_of_an_event_handler_can_substitute_fields_of_its_event(tmp_path):
     done = described(
         tmp_path,
         "(fails := ExecuteProcess(cmd=['sh', '-c', 'exit 3']))",

@@ -78,7 +78,7 @@ def test_parameters_of_each_kind_and_place_arrive(brief):
     ]
 
 
-def test_what_has_a_command_of_its_own_is_left_out_and_said(tmp_path):
+def test_a_node_that_needs_its_own_terminal_is_not_started_and_a_command_is_named(tmp_path):
     done = described(
         tmp_path,
         "Node(package='rviz2', executable='rviz2', arguments=['-d', 'a.rviz'])",
@@ -100,7 +100,7 @@ def test_what_has_a_command_of_its_own_is_left_out_and_said(tmp_path):
     assert done.failed == []
 
 
-def test_what_has_no_effect_on_nodes_of_one_process_is_said(brief):
+def test_node_options_without_effect_in_one_process_are_reported(brief):
     done = described(
         brief,
         "Node(package='mine', executable='brief.py', prefix='xterm -e', cwd='/', output='screen', "

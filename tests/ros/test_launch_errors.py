@@ -51,7 +51,7 @@ from tftool.base.errors import InputError, NodeFailed, UsageError
         ),
     ],
 )
-def test_what_cannot_be_launched_is_said_in_one_sentence(tmp_path, action, told):
+def test_a_wrong_launch_action_is_a_usage_error_with_its_reason(tmp_path, action, told):
     with pytest.raises((NodeFailed, UsageError), match=told) as refused:
         described(tmp_path, action)
 
@@ -133,7 +133,7 @@ def test_an_argument_the_file_only_mentions_may_be_passed(tmp_path):
     assert done.said("launch") == ["blue"]
 
 
-def test_what_goes_wrong_later_ends_the_launch(tmp_path):
+def test_an_error_of_a_later_action_ends_the_launch(tmp_path):
     done = described(
         tmp_path,
         "Node(package='turtlesim', executable='turtlesim_node')",

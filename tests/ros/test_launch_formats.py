@@ -130,7 +130,7 @@ WRONG = {
 
 
 @pytest.mark.parametrize("ending", FORMATS)
-def test_what_goes_wrong_later_is_told_with_the_line_that_says_it(tmp_path, ending):
+def test_an_error_while_a_launch_runs_is_reported_with_the_line_of_its_action(tmp_path, ending):
     file = tmp_path / f"a.launch.{ending}"
     file.write_text(WRONG[ending])
 
@@ -158,7 +158,7 @@ def test_what_goes_wrong_later_is_told_with_the_line_that_says_it(tmp_path, endi
         ("OpaqueFunction(function=lambda context: ['x'])", "must contain actions, not 'x'"),
     ],
 )
-def test_what_a_launch_files_own_code_does_wrong_is_told_with_its_line(tmp_path, action, told):
+def test_an_error_in_launch_file_code_ends_the_launch_with_an_explanation(tmp_path, action, told):
     with pytest.raises(NodeFailed) as refused:
         described(tmp_path, action)
 

@@ -10,7 +10,7 @@ from tftool.ros.host.importing import ros_free
 ECHO = "ExecuteProcess(cmd=['echo', 'hello there'])"
 
 
-def test_what_a_command_writes_is_an_event(tmp_path):
+def test_output_of_a_command_calls_the_on_stdout_handler(tmp_path):
     done = described(
         tmp_path,
         "RegisterEventHandler(OnProcessIO(on_stdout=lambda event: "
@@ -21,7 +21,7 @@ def test_what_a_command_writes_is_an_event(tmp_path):
     assert "echo-1 wrote hello there" in done.said("launch")
 
 
-def test_what_a_node_logs_is_an_event_of_its_standard_error(tmp_path):
+def test_a_log_message_of_a_node_calls_the_on_stderr_handler(tmp_path):
     (tmp_path / "talk.py").write_text(
         "import rclpy\nrclpy.init()\nnode = rclpy.create_node('talk')\n"
         "node.get_logger().info('ready')\nrclpy.spin(node)\n"

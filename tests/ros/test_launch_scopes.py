@@ -65,7 +65,7 @@ def test_whole_numbers_beside_others_become_floats_and_files_become_paths(tmp_pa
         (5.0, "not 5.0"),
     ],
 )
-def test_what_can_be_no_parameter_is_refused_as_ros_refuses_it(given, told):
+def test_an_invalid_parameter_is_refused_as_ros_refuses_it(given, told):
     with pytest.raises(TypeError, match=told):
         evaluated(given)
 
@@ -486,7 +486,7 @@ def test_a_services_shutdown_is_awaited_in_its_loop_and_done_elsewhere(
     assert program.status == 0
 
 
-def test_who_cancels_a_services_coroutine_ends_its_launch(ros_runtime, tmp_path, capfd):
+def test_cancelling_the_coroutine_of_a_launch_service_ends_its_launch(ros_runtime, tmp_path, capfd):
     (tmp_path / "stay.py").write_text(
         "import rclpy\nrclpy.init()\nrclpy.spin(rclpy.create_node('stay'))\n"
     )

@@ -67,7 +67,7 @@ def test_a_node_goes_from_state_to_state(camera):
         ("ERROR", "ERROR", "finalized"),
     ],
 )
-def test_what_does_not_succeed_leads_elsewhere(camera, configured, recovered, reached):
+def test_a_failed_configure_ends_unconfigured_or_finalized(camera, configured, recovered, reached):
     from rclpy.lifecycle import TransitionCallbackReturn
 
     answer = TransitionCallbackReturn[configured]

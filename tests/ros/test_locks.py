@@ -153,7 +153,7 @@ say(thread.is_alive())
     assert told(ros_runtime, tmp_path, body) == ["1.5 True", "4 met", "4 False"]
 
 
-def test_what_locks_refuse_is_what_pythons_own_refuse():
+def test_locks_refuse_the_same_wrong_calls_as_pythons_own_locks():
     from tftool.ros.host import locks
 
     for ours, real in (

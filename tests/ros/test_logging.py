@@ -66,7 +66,7 @@ def test_a_log_level_asked_for_on_the_command_line_holds(ros_runtime):
     assert ros_runtime.log("probe") == ["heard"]
 
 
-def test_what_a_node_and_its_parts_log_is_published_on_rosout(node, ros_runtime):
+def test_messages_of_a_node_and_its_child_loggers_appear_on_rosout(node, ros_runtime):
     import rclpy
     from rcl_interfaces.msg import Log
     from rclpy.logging import get_logger
@@ -85,7 +85,7 @@ def test_what_a_node_and_its_parts_log_is_published_on_rosout(node, ros_runtime)
         ("probe.part", Log.WARN[0], "two"),
     ]
     assert heard[0].file == __file__
-    assert heard[0].function == "test_what_a_node_and_its_parts_log_is_published_on_rosout"
+    assert heard[0].function == "test_messages_of_a_node_and_its_child_loggers_appear_on_rosout"
 
 
 @pytest.mark.parametrize("by", ["node", "arguments"])

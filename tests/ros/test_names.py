@@ -37,7 +37,7 @@ def test_names_expand_to_full_ones(given, full):
         ("/", 0),
     ],
 )
-def test_what_is_no_name_is_refused(given, at):
+def test_an_invalid_topic_name_is_refused_and_its_fault_is_located(given, at):
     assert names.topic_name_fault(given).at == at
     with pytest.raises(UsageError, match="cannot be a topic's"):
         names.expand(given, "node", "")

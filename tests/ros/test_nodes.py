@@ -74,7 +74,7 @@ def test_a_node_knows_its_names(ros_runtime):
         ),
     ],
 )
-def test_what_is_no_name_is_shown_with_the_place(node, use, refusal, told):
+def test_an_invalid_name_is_refused_with_a_mark_below_the_wrong_character(node, use, refusal, told):
     import rclpy
     from rclpy import exceptions
 
@@ -85,7 +85,7 @@ def test_what_is_no_name_is_shown_with_the_place(node, use, refusal, told):
     assert str(refused.value) == told
 
 
-def test_what_is_destroyed_is_used_no_more(node):
+def test_a_destroyed_publisher_or_node_refuses_further_use(node):
     from rclpy.exceptions import InvalidHandle
     from std_msgs.msg import Int32
 

@@ -298,7 +298,7 @@ def test_a_client_asks_for_and_changes_another_nodes_parameters(node, tmp_path):
     assert not AsyncParameterClient(node, "nobody").wait_for_services(timeout_sec=0.1)
 
 
-def test_who_listens_hears_of_every_change_of_a_parameter(node):
+def test_callbacks_for_parameter_events_are_called_for_every_change_until_removed(node):
     import rclpy
     from rclpy.parameter import Parameter
     from rclpy.parameter_client import AsyncParameterClient

@@ -104,7 +104,7 @@ def test_the_best_that_is_available_fits_whatever_the_other_end_says(node, ros_r
     assert not any("incompatible QoS" in text for text in ros_runtime.log())
 
 
-def test_who_comes_late_gets_as_many_as_were_kept_and_nothing_of_who_has_left(node):
+def test_a_late_latched_subscription_gets_the_kept_messages_of_existing_publishers(node):
     from std_msgs.msg import String
 
     heard = []

@@ -214,7 +214,7 @@ def test_parameters_are_set_one_after_the_other_until_one_is_not_declared(node):
         node.set_parameters([42])
 
 
-def test_what_a_callback_makes_of_a_change_is_judged_as_the_change(node):
+def test_parameters_that_a_pre_set_callback_returns_are_validated(node):
     from rclpy.exceptions import ParameterNotDeclaredException
     from rclpy.parameter import Parameter
 
@@ -278,7 +278,7 @@ def test_a_parameter_without_a_value_gives_way_to_an_alternative(node):
         node.declare_parameters("", [("y",)])
 
 
-def test_who_spins_a_multithreaded_executor_calls_no_callback_itself(ros_runtime):
+def test_a_multithreaded_executor_returns_from_spinning_while_a_callback_runs(ros_runtime):
     import rclpy
     from rclpy.callback_groups import ReentrantCallbackGroup
     from rclpy.executors import MultiThreadedExecutor
@@ -394,7 +394,7 @@ def test_a_parameter_without_a_value_is_answered_with_no_values(node):
     assert values("set", "unset") == values("set", "gone") == []
 
 
-def test_what_is_no_text_is_no_argument(ros_runtime):
+def test_init_refuses_an_argument_with_a_surrogate_and_installs_no_signal_handlers(ros_runtime):
     import rclpy
     from rclpy.signals import SignalHandlerOptions, get_current_signal_handlers_options
 

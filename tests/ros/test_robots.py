@@ -144,7 +144,7 @@ def test_a_file_may_be_the_argument(ros_runtime, tmp_path):
         ),
     ],
 )
-def test_what_the_nodes_cannot_take_is_said(ros_runtime, package, words, error, told):
+def test_invalid_arguments_of_robot_nodes_are_refused(ros_runtime, package, words, error, told):
     with pytest.raises(error, match=told):
         begin(ros_runtime, package, *words)
 

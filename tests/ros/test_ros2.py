@@ -400,7 +400,7 @@ def test_executables_and_prefixes_of_packages_are_shown(ros_runtime, tmp_path):
     assert ran(ros_runtime, tmp_path, "pkg", "prefix", "--share", "turtlesim")[0] == 0
 
 
-def test_what_is_not_there_is_named(ros_runtime, tmp_path):
+def test_a_missing_topic_or_node_is_named_in_the_error(ros_runtime, tmp_path):
     failure, _ = ran(ros_runtime, tmp_path, "topic", "echo", "/nothing", seconds=15.0)
     assert "There is no topic '/nothing' after 10 s" in str(failure)
     failure, _ = ran(ros_runtime, tmp_path, "param", "list", "/nobody", seconds=15.0)

@@ -20,7 +20,7 @@ def transform(parent, child, stamp=None, xyz=(0.0, 0.0, 0.0), xyzw=(0.0, 0.0, 0.
     return made
 
 
-def test_what_a_node_sends_another_looks_up_at_once(node, ros_runtime):
+def test_a_sent_transform_is_found_by_a_listener_without_spinning(node, ros_runtime):
     from rclpy.time import Time
     from tf2_ros import Buffer, TransformBroadcaster, TransformListener
 

@@ -44,7 +44,7 @@ assert not thread.is_alive()
     assert program.status == 0
 
 
-def test_what_a_thread_raises_is_said_and_ends_it_alone(ros_runtime, tmp_path):
+def test_an_exception_in_a_thread_is_logged_and_ends_only_that_thread(ros_runtime, tmp_path):
     file = tmp_path / "threaded.py"
     file.write_text(
         "import threading\n"

@@ -45,7 +45,7 @@ def test_a_timer_tells_when_it_was_due(node):
     assert infos[0].expected_call_time == infos[0].actual_call_time
 
 
-def test_what_never_waits_cannot_hold_simulated_time_still(node, ros_runtime):
+def test_callbacks_and_loops_that_never_wait_still_advance_simulated_time(node, ros_runtime):
     from std_msgs.msg import Int32
 
     fast = []

@@ -66,7 +66,7 @@ def test_wrong_times_are_refused(ros_runtime, make, error, told):
         make(rclpy.time, rclpy.duration, rclpy.clock)
 
 
-def test_who_wants_to_hear_of_jumps_says_which(node):
+def test_a_jump_callback_needs_a_function_and_a_valid_threshold(node):
     from rclpy.clock import ClockChange, JumpThreshold, TimeJump
     from rclpy.duration import Duration
 

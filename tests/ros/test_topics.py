@@ -117,7 +117,7 @@ def test_a_topic_carries_one_type(node):
         (lambda node: node.create_client(int, "a"), RuntimeError, "expected a service class"),
     ],
 )
-def test_what_is_no_type_or_callback_is_refused(node, make, error, told):
+def test_a_wrong_type_or_callback_is_refused(node, make, error, told):
     with pytest.raises(error, match=told):
         make(node)
 

@@ -388,7 +388,7 @@ def test_a_linked_package_is_found_and_other_links_are_not_followed(tmp_path):
     assert list(Workspace(tmp_path / "ws").packages) == ["linked"]
 
 
-def test_what_tests_lie_around_is_theirs_but_for_tftool_itself(tmp_path, monkeypatch):
+def test_tested_modules_get_the_test_loader_except_those_of_tftool(tmp_path, monkeypatch):
     import sys
 
     from tftool.ros.host import importing

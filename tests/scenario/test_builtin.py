@@ -28,7 +28,7 @@ def test_the_promised_scenarios_are_there():
 
 
 @pytest.mark.parametrize("name", builtin.names())
-def test_what_a_built_in_scenario_expects_holds(name):
+def test_every_expectation_of_a_built_in_scenario_holds(name):
     verdict = run_scenario(load(builtin.path_of(name)))
 
     assert verdict.failure == ""
@@ -72,5 +72,5 @@ def test_an_installation_without_them_says_so(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("word", ["nothing_like_it", "./turtles", "turtles.yaml", ""])
-def test_what_is_no_name_has_no_file(word):
+def test_a_word_that_names_no_built_in_scenario_has_no_path(word):
     assert builtin.path_of(word) is None

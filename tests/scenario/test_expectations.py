@@ -103,7 +103,7 @@ def test_the_lines_of_an_error_about_a_loop_are_one_line():
         "{always: true, frame: post}",
     ],
 )
-def test_what_is_true_holds(expectation):
+def test_a_true_expectation_holds(expectation):
     (outcome,) = judge(expectation)
 
     assert outcome.ok, outcome
@@ -244,7 +244,7 @@ def test_what_is_true_holds(expectation):
         ),
     ],
 )
-def test_what_is_not_true_says_what_was_expected_found_and_when(expectation, sentence, found, at):
+def test_a_false_expectation_reports_both_values_and_the_time(expectation, sentence, found, at):
     (outcome,) = judge(expectation)
 
     assert not outcome.ok

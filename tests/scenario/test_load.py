@@ -199,7 +199,7 @@ def test_a_number_with_a_wrong_unit_is_told_which_there_are(written, wrong):
 @pytest.mark.parametrize(
     "written", ["soon", "nan", ".inf", "1:30", "1_000", "0x10", "--1", "1 2", "true", "1e"]
 )
-def test_what_is_no_number_is_refused(written):
+def test_a_duration_that_is_not_a_plain_number_is_refused(written):
     (sentence,) = told(f"duration: {written}")
 
     assert sentence.startswith(f"'{written}' is not a duration")
@@ -347,7 +347,7 @@ def test_an_empty_file_is_told_so(text):
     assert told(text) == ["the file is empty"]
 
 
-def test_what_is_not_yaml_is_told_where():
+def test_invalid_yaml_is_reported_with_its_line_and_column():
     ((line, column, sentence),) = mistakes("duration: 1 s\nnodes: [turtlesim\nexpect: {\n")
 
     assert (line, column) == (3, 7)

@@ -73,7 +73,7 @@ def test_it_lasts_as_long_as_it_says_its_last_instant_included():
     assert played.verdict().lasted == seconds(2.5)
 
 
-def test_what_was_not_reached_is_said_and_does_not_count():
+def test_an_expectation_that_is_not_reached_is_reported_but_fails_no_verdict():
     clock = SimClock()
     text = "duration: 9 s\nexpect:\n  - {at: 1 s, trees: 0}\n  - {at: 8 s, trees: 7}\n"
     played = build(parse(text, "s.yaml"), clock)

@@ -29,7 +29,7 @@ def test_a_frame_that_comes_late_is_not_waited_for():
     assert first_moment(coming_at(0.0, 30.0), BEGIN, END) == BEGIN
 
 
-def test_what_never_moves_has_no_first_moment():
+def test_a_world_of_static_frames_has_no_first_moment():
     buffer = Buffer()
     buffer.set_transform_static(TransformStamped(BEGIN, "map", "mast", Transform()), "me")
 

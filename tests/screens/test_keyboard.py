@@ -23,7 +23,7 @@ class Broken:
         self.told.append(message.key)
 
 
-def test_what_is_typed_beside_bytes_that_are_no_text_is_kept():
+def test_keys_beside_invalid_utf_8_bytes_are_kept():
     driver = tolerant(Broken)()
 
     driver.run_input_thread()

@@ -315,7 +315,7 @@ def log(journal, until=60, width=40, height=5, look=PLAIN, back=0):
     )
 
 
-def test_what_was_said_before_the_beginning_has_no_time():
+def test_a_log_record_from_before_the_beginning_shows_no_time():
     # The screen follows a recording's clock, which is years away.
     assert log(Journal([record(-399_099_416, "line")])) == ["     - sim: line"]
 
@@ -339,7 +339,7 @@ def test_a_warning_that_repeats_is_one_line_with_a_count():
     assert log(journal, until=99, width=60, look=ASCII)[0].endswith("x63")
 
 
-def test_what_is_fatal_is_as_red_as_an_error_and_counted_as_one():
+def test_fatal_records_are_as_red_as_errors_and_repeats_are_one_line_with_a_count():
     lines = Journal([record(n, f"engine {n} is gone", "FATAL") for n in range(3)]).lines(
         seconds(1060), seconds(1000), 40, 5, PLAIN
     )

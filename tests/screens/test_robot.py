@@ -134,7 +134,7 @@ def test_a_number_is_typed_and_taken_by_enter(shown, mover):
         (("1", "e", "9", "9", "9", "enter"), "inf"),
     ],
 )
-def test_what_is_no_position_is_said_and_moves_nothing(shown, mover, keys, told):
+def test_an_invalid_joint_position_is_reported_and_moves_nothing(shown, mover, keys, told):
     lines = shown(*keys)
 
     assert told in lines[-1]

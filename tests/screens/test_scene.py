@@ -313,7 +313,7 @@ def test_a_demo_draws_the_robot_that_is_described_on_its_session():
     assert space_picture(scene.moment(None, "ball", "ball"), scene.solids).solids is scene.solids
 
 
-def test_what_is_bolted_to_a_frame_has_no_trail_of_its_own(frames):
+def test_a_frame_on_a_static_link_has_no_trail_of_its_own(frames):
     scene = frames({"arm": ("base", 1.0, 0.0)})
     for second in range(1000, 1003):
         place = Transform((float(second), 0.0, 0.0))
@@ -386,7 +386,7 @@ def test_the_background_is_the_simulators(turtles):
     assert scene.moment(None, "", "").picture.field.color == Color(1, 86, 255)
 
 
-def test_what_no_moment_can_be_asked_for_any_more_is_forgotten(turtles):
+def test_a_background_color_older_than_the_buffer_is_forgotten(turtles):
     def paint(world):
         world.node("turtlesim").set_parameter("background_r", 1)
 

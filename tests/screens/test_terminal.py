@@ -320,7 +320,7 @@ def test_a_panel_shows_text_it_was_given_before_it_had_a_size(danced):
 
 
 @pytest.mark.parametrize("case", VECTORS["teleop_keys"], ids=lambda case: case["key"])
-def test_what_a_terminal_sends_for_a_key_drives(danced, case):
+def test_the_bytes_that_a_terminal_sends_for_a_key_drive_or_quit(danced, case):
     final = chr(int(case["final_byte"], 16))
     sent = final if len(case["key"]) == 1 else f"\x1b[{final}"
     pressed = []

@@ -122,7 +122,7 @@ def test_a_demo_that_was_stopped_is_drawn_as_a_whole_when_it_goes_on(terminal):
         (("echo", "turtle2", "turtle1", "--host"), "Translation"),
     ],
 )
-def test_what_is_drawn_live_leaves_the_terminal_while_it_is_stopped(terminal, words, shown):
+def test_a_live_picture_leaves_the_terminal_while_stopped_and_then_returns(terminal, words, shown):
     live = terminal(90, 30, "-m", "tftool", *words)
     live.shows(shown)
     drawn_on = live.facts()

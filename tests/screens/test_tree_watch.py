@@ -78,7 +78,7 @@ def first_words(lines):
     return [line.split()[0] for line in lines if line]
 
 
-def test_what_does_not_fit_is_counted():
+def test_frames_that_do_not_fit_are_counted():
     lines = shown()
 
     assert lines[0].startswith("at 1000.000")
@@ -138,7 +138,7 @@ def test_q_in_a_filter_is_a_letter_and_else_the_end():
     assert shown("q") == []
 
 
-def test_what_is_wrong_stands_beside_the_frame():
+def test_a_frame_with_two_parents_is_marked_in_its_line():
     (line,) = [line for line in shown() if "link_01" in line]
 
     assert line.endswith("two-parents")

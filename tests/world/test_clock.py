@@ -62,7 +62,7 @@ def test_within_an_instant_phase_goes_before_rank_and_rank_before_order_of_askin
     ]
 
 
-def test_what_a_waiter_sets_off_comes_to_rest_before_the_next_one_of_the_instant():
+def test_the_work_a_waiter_starts_ends_before_the_next_waiter_of_the_instant():
     clock = SimClock()
     seen = []
 

@@ -35,7 +35,7 @@ def test_it_stands_still_between_two_tellings_and_wakes_what_is_due():
     assert woken == [(11, seconds(15)), (12, seconds(15))]
 
 
-def test_what_waits_goes_on_waiting_for_as_long_when_time_falls_back():
+def test_a_sleeper_keeps_its_remaining_time_when_the_clock_falls_back():
     clock, woken, fell = FollowedClock(seconds(100)), [], []
     clock.fell_back.add(fell.append)
 

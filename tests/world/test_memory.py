@@ -101,6 +101,6 @@ def test_the_environment_says_how_much_may_be_kept(given, allows):
 
 
 @pytest.mark.parametrize("given", ["0", "-3", "1g", "lots", "9" * 5000])
-def test_what_is_no_number_of_megabytes_is_refused(given):
+def test_an_invalid_number_of_megabytes_is_refused(given):
     with pytest.raises(UsageError, match="is not a number of megabytes"):
         allowed({VARIABLE: given})

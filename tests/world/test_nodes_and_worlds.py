@@ -241,7 +241,7 @@ def test_two_nodes_of_one_name_cannot_live_together():
         world.node("nobody")
 
 
-def test_what_a_node_broadcasts_is_in_the_buffer_under_its_name_and_on_the_topic():
+def test_a_broadcast_of_a_node_reaches_the_buffer_and_the_topic_with_its_name():
     world = World(SimClock())
     node = Node(world, "sender")
     messages = []
@@ -254,7 +254,7 @@ def test_what_a_node_broadcasts_is_in_the_buffer_under_its_name_and_on_the_topic
     assert messages[0].authority == "sender"
 
 
-def test_what_the_buffer_refuses_goes_no_further_and_is_logged():
+def test_a_transform_that_the_buffer_refuses_is_logged_and_not_published():
     world = World(SimClock())
     node = Node(world, "sender")
 
@@ -364,7 +364,7 @@ def test_a_callback_that_fails_while_nobody_runs_the_world_raises_where_it_is():
         node.publish("pose", build(Pose, 0, 0, 0))
 
 
-def test_what_a_node_started_beside_its_run_fails_as_the_node_with_its_line():
+def test_an_error_in_a_task_of_a_node_fails_the_node_and_names_the_line():
     world = World(SimClock())
 
     class Careless(Node):
@@ -385,7 +385,7 @@ def test_what_a_node_started_beside_its_run_fails_as_the_node_with_its_line():
     assert world.clock.elapsed() == seconds(1)
 
 
-def test_what_a_node_started_outlasts_its_run_and_ends_with_the_node():
+def test_a_task_of_a_node_outlasts_its_run_and_ends_with_the_node():
     world = World(SimClock())
     seen = []
 

@@ -136,7 +136,7 @@ def test_a_node_that_heeds_the_first_signal_ends_the_run_and_is_not_named(start)
     assert program.ended() == (130, "interrupted by None\n", "")
 
 
-def test_what_fails_on_the_way_out_of_an_interrupted_run_is_its_cause(start):
+def test_a_failure_during_an_interrupt_is_named_as_the_cause(start):
     program = start(
         """
         try:
@@ -200,7 +200,7 @@ def test_the_terminal_is_as_it_was_when_the_second_signal_ends_the_process(start
         os.close(theirs)
 
 
-def test_what_a_node_publishes_that_never_pauses_is_not_kept(start):
+def test_messages_published_by_a_node_that_never_pauses_are_not_kept(start):
     program = start(PUBLISHES)
 
     status, out, _ = program.ended()

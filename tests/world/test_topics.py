@@ -26,7 +26,7 @@ def test_every_subscriber_has_been_told_when_publish_returns():
     assert topic.count == 1
 
 
-def test_who_unsubscribes_while_being_told_skips_nobody():
+def test_a_subscriber_that_leaves_during_publish_causes_no_other_to_be_skipped():
     topic = Topic("pose", Pose)
     told = []
     stops = []
@@ -89,7 +89,7 @@ def test_a_publisher_goes_on_with_the_topic_that_took_the_place_of_its_own():
     assert world.topic("turtle1/pose", Pose).latest == build(Pose, 3, 3, 3)
 
 
-def test_what_was_broadcast_can_be_read_whether_or_not_anything_listened():
+def test_a_broadcast_is_the_latest_message_with_or_without_subscribers():
     world = World(SimClock())
     sample = TransformStamped(1, "world", "turtle1", Transform())
     told = []

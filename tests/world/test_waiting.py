@@ -32,7 +32,7 @@ def later(world, at, action):
     timer.add_done_callback(lambda _: action())
 
 
-def test_what_is_known_is_given_at_once(world):
+def test_a_known_transform_is_returned_at_once(world):
     put(world, 0, x=3.0)
 
     async def main():

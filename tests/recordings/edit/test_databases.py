@@ -69,7 +69,7 @@ def test_a_database_with_other_files_beside_it_is_copied_as_well(database, tmp_p
         assert base.execute("select text from notes").fetchall() == [("wheels changed",)]
 
 
-def test_what_is_dropped_from_a_database_is_not_in_its_file_any_more(database, tmp_path):
+def test_dropped_messages_are_not_in_the_rows_or_bytes_of_the_new_database(database, tmp_path):
     out = tmp_path / "out.db3"
 
     report = edit([str(database)], out, Edits(drop=(("*", "*"),)))

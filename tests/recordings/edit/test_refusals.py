@@ -67,7 +67,9 @@ def test_a_folder_is_replaced_only_if_it_holds_nothing_but_a_recording(tmp_path,
         (Edits(start=5, end=3), "--to is before --from"),
     ],
 )
-def test_what_is_not_in_the_recording_is_refused_with_what_is(tmp_path, mcap, edits, told):
+def test_edits_that_do_not_fit_the_recording_are_refused_and_write_nothing(
+    tmp_path, mcap, edits, told
+):
     with pytest.raises(UsageError, match=told):
         edit([str(mcap)], tmp_path / "out.mcap", edits)
 

@@ -30,7 +30,7 @@ def test_turns_longer_than_half_a_period_take_half_of_the_time():
     assert turns(Cadence(30 * MS, 0), [40 * MS] * 3) == [0, 80 * MS, 160 * MS]
 
 
-def test_what_was_missed_long_ago_is_not_made_up_for():
+def test_a_very_late_turn_shortens_only_the_interval_after_it():
     begun = turns(Cadence(30 * MS, 0), [10 * MS] * 4, late={1: 5_000 * MS})
 
     assert begun[2] - begun[1] == 20 * MS

@@ -414,7 +414,7 @@ def test_the_last_message_of_a_topic_is_sent_within_the_bytes_of_a_round():
     assert world.topics()["goal"].subscribers == 0
 
 
-def test_what_is_kept_of_a_session_is_the_last_message_of_each_topic_thinned_out():
+def test_the_latest_displays_are_the_last_message_of_each_topic_thinned_out():
     world = World(SimClock())
     displays = LiveDisplays(world)
     goal = world.publisher("test", "goal", PointStamped)

@@ -87,7 +87,7 @@ def test_all_of_a_tall_world_lies_in_what_panels_leave_free(chromium, stage):
     page.until(lambda: len(page.drawn()) == 2 and is_free())
 
 
-def test_what_a_person_chose_is_not_chosen_anew(chromium, stage):
+def test_view_settings_chosen_by_a_person_stay_when_frames_are_added(chromium, stage):
     stage.put(1.0)
     page = Page(chromium, stage)
     page.until(lambda: page.text("#sentence") == "turtle in world")

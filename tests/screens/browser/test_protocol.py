@@ -62,7 +62,7 @@ TRAILS = '{"type": "trails", "fixed": "map", "frames": %s, "from": 1, "to": 2, "
         ),
     ],
 )
-def test_what_the_page_may_say(said, kind, fields):
+def test_page_requests_are_parsed_into_their_kind_and_fields(said, kind, fields):
     assert parse(said) == PageRequest(kind, fields)
 
 
@@ -289,7 +289,7 @@ def test_the_buffers_reach_is_nothing_while_all_is_static():
     }
 
 
-def test_what_the_buffer_remembers_is_told_at_even_steps_and_fewer_for_many_frames():
+def test_remembered_moments_are_evenly_spaced_and_fewer_for_many_frames():
     frames = buffer().snapshot(seconds(1004)).frames
 
     few = protocol.moments(frames)

@@ -422,7 +422,7 @@ def test_a_page_in_the_past_still_hears_how_far_the_buffer_reaches():
     serve(test)
 
 
-def test_what_the_buffer_remembers_is_told_on_request_for_trails():
+def test_a_past_request_is_answered_with_the_history_of_the_buffer():
     async def test(world, page):
         for second in (1, 2, 3):
             put(world, float(second), stamp=world.clock.epoch + seconds(second))

@@ -143,7 +143,7 @@ NUMBERS = dict.fromkeys(("translation", "rotation", "rpy"), 0)
 
 
 @needs_node
-def test_what_does_not_fit_is_rounded_to_a_micrometre_and_says_so(tmp_path):
+def test_a_page_too_large_is_rounded_to_a_micrometre_and_marked_as_rounded(tmp_path):
     buffer, now = drawn_world(3), EPOCH + seconds(3.1)
     path = tmp_path / "page.html"
     data = StandaloneData("a test", buffer, EPOCH, now)
@@ -211,7 +211,7 @@ def test_a_scenario_and_a_description_become_files(tmp_path, capsys):
         (["-o", "run.html", "--cache-time", "5"], 2, "leave out --cache-time"),
     ],
 )
-def test_what_cannot_be_written_is_told_and_leaves_nothing(
+def test_an_impossible_output_is_refused_with_a_sentence_and_changes_no_file(
     tmp_path, monkeypatch, capsys, words, status, sentence
 ):
     monkeypatch.chdir(tmp_path)

@@ -362,7 +362,7 @@ def test_the_joint_panel_has_full_names_limits_and_buttons_for_all_joints(chromi
         assert len(found) > 1
 
 
-def test_what_is_round_is_drawn_round_and_has_a_shadow_on_the_ground(chromium, tmp_path):
+def test_a_cylinder_is_drawn_round_and_has_a_shadow_on_the_ground(chromium, tmp_path):
     file = tmp_path / "arm.urdf"
     file.write_text(JOINTS)
     with view(tmp_path, file) as address:

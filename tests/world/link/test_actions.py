@@ -118,7 +118,7 @@ def test_a_goal_that_comes_again_while_it_is_decided_on_begins_once():
     meet(repeat, decides=True)
 
 
-def test_those_that_are_decided_on_count_and_who_is_turned_down_leaves_room():
+def test_undecided_goals_count_toward_the_limit_and_refused_goals_do_not():
     async def decide(stranger, world):
         asked = [asyncio.ensure_future(stranger.send(number)) for number in range(1, 4)]
         await until(lambda: len(stranger.goals) == 3)

@@ -23,7 +23,7 @@ def taken_in(fill, expected):
     return box, taken
 
 
-def test_what_came_before_the_start_and_from_other_threads_comes_in_order():
+def test_messages_before_the_start_come_in_order_and_those_of_threads_come_too():
     def fill(box, take):
         for number in range(500):
             box.put(take, number, 1)

@@ -140,7 +140,7 @@ def test_the_bytes_of_a_message_count_until_it_is_sent(out, monkeypatch):
     assert not publishing.is_alive()
 
 
-def test_who_cannot_be_sent_to_keeps_nothing_from_the_others(out):
+def test_a_send_that_raises_does_not_stop_the_next_send(out):
     def gone():
         raise OSError("gone")
 

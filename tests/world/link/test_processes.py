@@ -140,7 +140,7 @@ def test_a_named_world_keeps_to_itself_while_a_session_runs():
 
 
 @pytest.mark.parametrize("leave", [Process.interrupt, Process.kill])
-def test_who_stays_says_that_the_host_has_left_and_goes_on_with_the_next(leave):
+def test_a_guest_reports_that_the_host_has_left_and_goes_on_with_the_next_host(leave):
     with host() as first:
         first.says('"translation"')
         with Process("echo", "turtle2", "turtle1", "--rate", "20") as guest:
@@ -240,7 +240,7 @@ def test_a_full_disk_leaves_hosting_alone(files):
     assert "Traceback" not in alone.stderr
 
 
-def test_who_is_interrupted_leaves_nothing_behind(session_dir):
+def test_an_interrupted_host_exits_with_130_and_removes_its_sockets(session_dir):
     with host() as first:
         first.says('"translation"')
         assert len(sockets(session_dir)) == 3
@@ -324,7 +324,7 @@ READY = {"host": "Successfully spawned turtle2", "static": "Spinning", "guest": 
 ROUNDS = 12
 
 
-def test_who_is_killed_is_missed_at_once():
+def test_a_killed_host_is_reported_at_once():
     async def miss(first):
         with Link(Options("test")) as guest:
             world = new_world()
@@ -357,7 +357,7 @@ def fresh_answer(guest, after):
     )
 
 
-def test_whoever_is_killed_the_others_go_on_and_a_newcomer_finds_them(session_dir):
+def test_killing_any_process_leaves_the_others_running_and_a_newcomer_finds_them(session_dir):
     with contextlib.ExitStack() as stack:
         live = {}
         for role in ROLES:

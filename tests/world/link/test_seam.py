@@ -138,7 +138,7 @@ def test_services_and_actions_answer_whatever_carries_them():
     play(ask())
 
 
-def test_who_comes_and_goes_is_seen_whatever_carries_it():
+def test_a_process_is_in_the_graph_until_its_link_closes_over_another_middleware():
     async def come_and_go():
         with Pair() as pair:
             assert [str(one.role) for one in pair.links[1].graph.processes()] == ["host"]

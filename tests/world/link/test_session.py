@@ -182,7 +182,7 @@ def test_a_guests_nodes_are_in_the_hosts_graph_while_they_live():
     play(look())
 
 
-def test_who_only_looks_shows_nothing_and_sends_nothing():
+def test_a_read_only_guest_receives_but_shows_and_sends_nothing():
     async def look():
         async with Two(guest=Options("monitor", read_only=True)) as two:
             heard = []

@@ -162,7 +162,7 @@ def test_the_services_of_an_action_can_be_called_from_another_process():
     play(turn())
 
 
-def test_what_an_action_says_inside_a_process_too_goes_over_the_link_once():
+def test_action_feedback_published_in_the_process_too_goes_over_the_link_once():
     fibonacci = INTERFACES.find("example_interfaces", "action", "Fibonacci")
     name = "count/_action/feedback"
 

@@ -42,7 +42,7 @@ def test_transforms_arrive_with_their_sender_in_buffer_and_topic():
     play(send())
 
 
-def test_what_came_in_is_not_sent_out_again():
+def test_received_messages_are_not_sent_out_again():
     async def send():
         async with Two() as two:
             echoes = []
@@ -69,7 +69,7 @@ def test_what_came_in_is_not_sent_out_again():
     play(send())
 
 
-def test_who_comes_late_gets_all_statics_of_everybody():
+def test_a_late_guest_gets_the_newest_static_of_every_frame_with_its_sender():
     async def send():
         with Link(Options("static")) as first:
             here = new_world()
@@ -195,7 +195,7 @@ def test_a_long_path_in_one_message_is_taken_in_as_if_one_by_one():
     ],
     ids=["two parents", "many links"],
 )
-def test_what_is_no_long_path_goes_one_by_one(sent):
+def test_a_message_of_two_parents_or_many_links_arrives_unchanged(sent):
     async def send():
         async with Two() as two:
             await until(lambda: two.host.graph.entities("subscription", name="tf"))

@@ -102,7 +102,7 @@ def test_messages_that_a_workspace_defines_itself_reach_another_terminal(tmp_pat
             )
 
 
-def test_who_only_looks_is_told_that_nobody_gets_what_its_nodes_send(tmp_path):
+def test_run_and_launch_say_that_read_only_nodes_send_nothing_to_other_processes(tmp_path):
     launched = tmp_path / "talk.launch.py"
     launched.write_text(
         "from launch import LaunchDescription\n"

@@ -183,7 +183,7 @@ def test_a_publisher_that_keeps_all_keeps_it_for_other_processes_too():
     play(send())
 
 
-def test_what_was_kept_before_there_was_a_link_reaches_those_who_come_late():
+def test_latched_messages_kept_before_the_link_reach_late_subscribers():
     async def send():
         here, there = new_world(), new_world()
         endpoint = Endpoint(
@@ -346,7 +346,7 @@ def test_a_service_of_a_name_of_the_simulators_is_what_it_says_it_is():
     play(ask())
 
 
-def test_who_serves_here_goes_before_who_serves_elsewhere():
+def test_a_local_service_is_preferred_to_one_of_another_process():
     async def ask():
         async with Two() as two:
             two.here.serve("go", lambda request: TRIGGER.Response(message="far"), TRIGGER)
@@ -361,7 +361,7 @@ def test_who_serves_here_goes_before_who_serves_elsewhere():
     play(ask())
 
 
-def test_what_nobody_says_the_type_of_stays_inside_the_process():
+def test_a_service_without_a_type_is_not_offered_to_other_processes():
     async def ask():
         async with Two() as two:
             two.here.serve("secret", lambda request: None)
@@ -406,7 +406,7 @@ def test_a_goal_of_any_type_is_taken_or_refused_fed_back_and_ended():
     play(act())
 
 
-def test_who_calls_a_goal_off_hears_what_its_server_decides():
+def test_a_client_that_cancels_a_goal_hears_the_decision_of_the_server():
     async def act():
         async with Two() as two:
             goals, decisions = [], [False, True]

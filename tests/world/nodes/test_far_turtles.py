@@ -43,7 +43,7 @@ def pose(x, y=5.0):
     return build(Pose, x, y, 0.0, 0.0, 0.0)
 
 
-def test_what_is_drawn_is_what_the_simulator_drew(world):
+def test_far_turtles_have_the_pose_trail_and_background_of_the_simulator(world):
     simulator, far = Turtlesim(world), FarTurtles(world)
     drive = world.topic("turtle1/cmd_vel", Twist)
     Script(world, (1, lambda: drive.publish(twist(2.0, 1.8))))
@@ -71,7 +71,7 @@ def test_the_picture_changes_only_when_a_turtle_moves(world):
     assert far.revision > first
 
 
-def test_who_falls_silent_is_gone_and_leaves_no_line_when_it_comes_back_elsewhere(world):
+def test_a_silent_turtle_is_removed_and_draws_no_line_when_it_returns_elsewhere(world):
     far = FarTurtles(world)
     one, two = (world.topic(f"turtle{number}/pose", Pose) for number in (1, 2))
     there = []

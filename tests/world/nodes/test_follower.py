@@ -217,7 +217,7 @@ def test_two_runs_of_the_demo_are_equal_to_the_last_bit():
     assert lived() == lived()
 
 
-def test_who_drives_a_turtle_and_who_hears_it_is_known_by_name():
+def test_endpoints_name_their_nodes_and_types_until_the_nodes_end():
     world = new_world()
     Turtlesim(world, "sim")
     Broadcaster(world, "broadcaster1", turtle="turtle1")

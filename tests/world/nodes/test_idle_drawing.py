@@ -48,7 +48,7 @@ def test_a_turtle_left_alone_draws_after_five_seconds_and_not_before():
     assert len(places(simulator)) > 200
 
 
-def test_what_it_draws_stays_off_the_walls_and_comes_to_where_it_was():
+def test_the_idle_drawing_stays_off_the_walls_and_retraces_its_early_lines():
     simulator, _ = lived(200.0)
 
     drawn = places(simulator)

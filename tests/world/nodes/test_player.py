@@ -189,7 +189,7 @@ def test_where_it_was_sought_links_that_are_sent_in_turns_can_be_asked_together(
     assert answers == [START + seconds(1.4)]
 
 
-def test_who_comes_while_it_stands_still_is_told_what_the_others_know(arm):
+def test_a_late_subscriber_of_a_paused_player_gets_the_last_transform_of_each_link(arm):
     late = []
     played = Played(arm, is_paused=True)
 

@@ -89,7 +89,7 @@ def test_a_command_lives_for_exactly_one_second(age, speed):
 
 @settings(max_examples=25)
 @given(st.lists(st.tuples(st.integers(0, 60), twists), max_size=8), st.booleans())
-def test_whatever_is_commanded_the_turtle_stays_in_the_field(commands, holonomic):
+def test_a_turtle_stays_in_the_field_under_any_commands(commands, holonomic):
     world = new_world()
     Turtlesim(world, holonomic=holonomic)
     poses = []
@@ -548,7 +548,7 @@ def test_a_parameter_that_was_forced_too_far_still_is_a_colour():
     assert sim.background == Color(255, 86, 255)
 
 
-def test_who_waits_for_an_answer_is_told_when_the_simulator_leaves():
+def test_a_pending_call_is_refused_when_the_simulator_leaves():
     world = new_world()
     sim = Turtlesim(world)
     hands = At(world, (0.0, refusal(lambda: world.call("spawn", build(Spawn.Request, 1.0, 1.0)))))

@@ -133,7 +133,7 @@ def test_explain_listens_until_a_robots_statics_have_come(peer, domain, capsys):
     assert "laser in base" in capsys.readouterr().out
 
 
-def test_what_only_looks_has_no_publisher(domain):
+def test_a_read_only_process_has_no_publishers(domain):
     async def scene():
         async with joined(domain) as (_, link), joined(domain, read_only=True) as (world, looking):
             world.broadcast([transform("odom", "base")], "wheels")

@@ -143,7 +143,7 @@ def test_a_process_that_leaves_is_gone_from_the_graph(domain):
 
 
 @pytest.mark.parametrize("published", ["other_domain", "other_type"])
-def test_what_is_not_ours_is_not_heard(domain, published):
+def test_messages_of_another_domain_or_type_are_not_received(domain, published):
     async def scene():
         async with joined(domain, read_only=True) as (world, link):
             heard = []

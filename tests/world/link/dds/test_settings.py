@@ -71,7 +71,7 @@ def test_peers_of_the_environment_are_named_where_they_are_not_gone_to():
         (("eth0..9",), {}, "is neither an interface of this machine"),
     ],
 )
-def test_what_cannot_be_is_said_with_what_to_do(places, environment, told):
+def test_impossible_network_settings_are_refused_with_advice(places, environment, told):
     with pytest.raises(LinkError, match=told):
         network(places, environment)
 
@@ -145,7 +145,7 @@ def test_names_of_topics_types_and_processes_are_read_back():
         ("rt/\x1b[2J", "../../msg"),
     ],
 )
-def test_what_is_not_of_ros_is_passed_over(topic, type_name):
+def test_a_dds_topic_that_is_not_of_ros_has_no_ros_part(topic, type_name):
     assert names.ros_part(topic, type_name) is None
 
 

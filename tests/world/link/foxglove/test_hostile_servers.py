@@ -129,7 +129,7 @@ ODD = {
 
 
 @pytest.mark.parametrize("odd", ODD.values(), ids=ODD.keys())
-def test_what_is_not_the_protocol_ends_the_connection_and_the_next_one_goes_on(odd):
+def test_a_protocol_violation_ends_the_connection_and_the_next_connection_works(odd):
     with server(sends(odd), sends(good)) as address:
         said, _ = heard_by(address, lambda world, _: "base" in world.buffer.frames())
     assert f"The connection to {address} has ended (" in said
@@ -147,7 +147,7 @@ HARMLESS = {
 
 
 @pytest.mark.parametrize("odd", HARMLESS.values(), ids=HARMLESS.keys())
-def test_what_is_of_no_interest_is_passed_over(odd):
+def test_irrelevant_messages_are_ignored_silently(odd):
     with server(sends(odd, good)) as address:
         said, _ = heard_by(address, lambda world, _: "base" in world.buffer.frames())
     assert said == ""

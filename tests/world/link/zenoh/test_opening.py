@@ -17,7 +17,7 @@ from tftool.world.link.zenoh.reach import ZenohReach
 from tftool.world.link.zenoh.transport import Wire
 
 
-def test_whatever_goes_wrong_on_the_way_in_nothing_is_left_there(session_dir, monkeypatch):
+def test_a_failed_opening_leaves_only_the_lock_file_and_releases_the_lock(session_dir, monkeypatch):
     def fail(wire, key, timeout=1.0):
         raise RuntimeError("zenoh has a bad day")
 

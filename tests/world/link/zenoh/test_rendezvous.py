@@ -79,7 +79,7 @@ def test_domains_do_not_meet(home):
 
 
 @unix_only
-def test_what_a_killed_process_left_is_swept(home):
+def test_a_new_member_removes_the_files_of_a_killed_process(home):
     with Rendezvous(0, home / "run") as first:
         first.settle()
         path = path_of(first.endpoint)
@@ -138,7 +138,7 @@ def test_a_password_file_that_is_none_is_refused_with_its_folder(home, monkeypat
 
 
 @unix_only
-def test_who_leaves_takes_its_files_along(home):
+def test_a_member_that_leaves_removes_its_files(home):
     with Rendezvous(0, home / "run") as member, listening(path_of(member.endpoint)):
         pass
 
