@@ -14,7 +14,6 @@ from typing import Any
 
 from tftool.base.errors import Mistake, ScenarioError, TftoolError, UsageError
 from tftool.base.stamps import CACHE_TIME, Duration, as_seconds, seconds
-from tftool.buffer.forest import stripped
 from tftool.scenario import builtin, document
 from tftool.scenario import doctor_expectations as doctoring
 from tftool.scenario import units as values
@@ -29,7 +28,7 @@ from tftool.scenario.fields import (
     suggest,
     tagged,
 )
-from tftool.scenario.node_kinds import KINDS, link_of
+from tftool.scenario.node_kinds import KINDS, check_robots, link_of
 from tftool.scenario.scenario import Expectation, NodeEntry, Scenario, Step, When
 from tftool.scenario.script import ACTIONS, StopNode
 from tftool.world.clock import SimClock
@@ -252,51 +251,9 @@ class _ScenarioReader:
             self.names = tuple(taken)
         if not whole:
             raise Unreadable
-        self.check_robots(reading.items(node, ""), items, reading)
+        self.warnings += check_robots(reading.items(node, ""), items, reading)
         self.check_tree(reading.items(node, ""), items, reading)
         return tuple(found)
-
-    def check_robots(
-        self, nodes: Iterable[Node], items: Iterable[tuple[str, str, Any]], reading: Reading
-    ) -> None:
-        """Check that one node moves each robot, and that `base` of a node names a robot's base.
-
-        Raises:
-            Unreadable: If a node fails this check.
-        """
-        lines: dict[str, int] = {}
-        observers: list[tuple[Node, str]] = []
-        bases: list[str] = []
-        whole = True
-        for item, (kind, _, parameters) in zip(nodes, items, strict=True):
-            moved: list[str] = []
-            if kind == "odometry":
-                bases.append(stripped(parameters["base"]))
-                moved, key = [f"frame {quoted(bases[-1])}"], "base"
-            elif kind == "robot":
-                prefix, key = parameters["frame_prefix"], "frame_prefix"
-                joints = parameters["file"].joints.values()
-                moved = [f"joint {quoted(prefix + one.name)}" for one in joints if one.moves]
-                for text in parameters["file"].beyond_limits(parameters.get("joints") or {}):
-                    self.warnings.append(reading.source.mistake(item.place, text.rstrip(".")))
-            elif "base" in parameters:
-                observers.append((item, stripped(parameters["base"])))
-            known = next((one for one in moved if one in lines), None)
-            if known is not None:
-                whole = False
-                reading.note(
-                    item,
-                    f"the node of line {lines[known]} also moves {known}: give one of the two "
-                    f"another '{key}'",
-                )
-            lines.update(dict.fromkeys(moved, item.place.line + 1))
-        for item, base in observers:
-            if len(bases) > 1 and base not in bases:
-                whole = False
-                near = suggest(base, bases) or f"; there are {listed(bases)}"
-                reading.note(item, f"no robot has the base {quoted(base)}{near}")
-        if not whole:
-            raise Unreadable
 
     def check_tree(
         self, nodes: Iterable[Node], items: Iterable[tuple[str, str, Any]], reading: Reading

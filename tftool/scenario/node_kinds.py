@@ -5,13 +5,13 @@ same name and the same default as in the class.
 """
 
 import inspect
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Final
 
 from tftool.base.color import Color
-from tftool.base.errors import InputError, UsageError
+from tftool.base.errors import InputError, Mistake, UsageError
 from tftool.buffer.forest import stripped
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.conversions import quaternion_from_rpy
@@ -22,7 +22,7 @@ from tftool.messages.turtle_messages import Spawn
 from tftool.robots.description import JointPosition
 from tftool.scenario import document
 from tftool.scenario import units as values
-from tftool.scenario.fields import Key, Reader, Reading, quoted
+from tftool.scenario.fields import Key, Reader, Reading, Unreadable, listed, quoted, suggest
 from tftool.world.node import Node
 from tftool.world.nodes.broadcasters import (
     Broadcaster,
@@ -305,3 +305,58 @@ def link_of(kind: str, parameters: Mapping[str, Any]) -> tuple[str, str] | None:
     else:
         return None
     return stripped(parent), stripped(child)
+
+
+def check_robots(
+    nodes: Iterable[document.Node], items: Iterable[tuple[str, str, Any]], reading: Reading
+) -> list[Mistake]:
+    """Check that one node moves each robot, and that `base` of a node names a robot's base.
+
+    Args:
+        nodes: The scenario's nodes, as in the file.
+        items: Kind, name and parameters of each node.
+        reading: Pass over the document, which gets a mistake for each node that fails the check.
+
+    Returns:
+        Warnings about joints beyond their limits, with which the scenario can be played.
+
+    Raises:
+        Unreadable: If a node fails the check.
+    """
+    warnings: list[Mistake] = []
+    lines: dict[str, int] = {}
+    observers: list[tuple[document.Node, str]] = []
+    bases: list[str] = []
+    whole = True
+    for item, (kind, _, parameters) in zip(nodes, items, strict=True):
+        moved: list[str] = []
+        if kind == "odometry":
+            bases.append(stripped(parameters["base"]))
+            moved, key = [f"frame {quoted(bases[-1])}"], "base"
+        elif kind == "robot":
+            prefix, key = parameters["frame_prefix"], "frame_prefix"
+            joints = parameters["file"].joints.values()
+            moved = [f"joint {quoted(prefix + one.name)}" for one in joints if one.moves]
+            warnings += (
+                reading.source.mistake(item.place, text.rstrip("."))
+                for text in parameters["file"].beyond_limits(parameters.get("joints") or {})
+            )
+        elif "base" in parameters:
+            observers.append((item, stripped(parameters["base"])))
+        known = next((one for one in moved if one in lines), None)
+        if known is not None:
+            whole = False
+            reading.note(
+                item,
+                f"the node of line {lines[known]} also moves {known}: give one of the two "
+                f"another '{key}'",
+            )
+        lines.update(dict.fromkeys(moved, item.place.line + 1))
+    for item, base in observers:
+        if len(bases) > 1 and base not in bases:
+            whole = False
+            near = suggest(base, bases) or f"; there are {listed(bases)}"
+            reading.note(item, f"no robot has the base {quoted(base)}{near}")
+    if not whole:
+        raise Unreadable
+    return warnings
