@@ -24,7 +24,7 @@ from tftool.recordings.description_frames import (
     read_description,
     read_joint_states,
 )
-from tftool.recordings.tf_topics import transforms_on
+from tftool.recordings.tf_topics import superfluous, transforms_on
 from tftool.robots.robot_model import Robot, load_urdf
 
 if TYPE_CHECKING:
@@ -433,19 +433,16 @@ def without_copies(evidence: Evidence) -> tuple[tuple[Edge, ...], dict[str, int]
     """
     transforms, copies = evidence.transforms, Counter[str]()
     topics = [one.topic for one in transforms.publishers]
-    usual = np.array([topic.strip("/") in ("tf", "tf_static") for topic in topics])
     single = {one.name for one in evidence.topics if last_part(one.type) == "TransformStamped"}
-    if usual.all() and not single:
+    usual = np.array(
+        [topic not in single and topic.strip("/") in ("tf", "tf_static") for topic in topics]
+    )
+    if usual.all():
         return transforms.edges, copies
-    is_single = np.array([topic in single for topic in topics])
-    sent = {
-        edge.child for edge in transforms.edges if not is_single[transforms.senders_of(edge)].all()
-    }
     edges = []
-    for edge in transforms.edges:
+    for edge, left in zip(transforms.edges, superfluous(transforms, single), strict=True):
         senders = transforms.senders_of(edge)
-        left = is_single[senders] & (edge.child in sent)
-        heard = usual[senders] & ~is_single[senders]
+        heard = usual[senders]
         for number in np.unique(senders[~heard & ~left]).tolist() if heard.any() else ():
             own = senders == number
             left |= own & (np.isin(edge.stamps[own], edge.stamps[heard]).mean() >= _COPIED)

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
+import numpy.typing as npt
 
 from tftool.base.errors import InputError
 from tftool.base.plain_text import count, near_names
@@ -134,8 +135,8 @@ def implying(topics: Iterable[RecordedTopic]) -> tuple[RecordedTopic, ...]:
     return tuple(one for one in topics if one.type in IMPLYING and one.encoding in ("cdr", "ros1"))
 
 
-def without_single(found: Transforms, topics: Collection[str]) -> Transforms:
-    """Leave out transforms of topics of type TransformStamped, for frames that tf topics have, too.
+def superfluous(found: Transforms, topics: Collection[str]) -> "list[npt.NDArray[np.bool_]]":
+    """Return a mask of each edge's single transforms (TransformStamped) that tf topics replace.
 
     A motion capture often sends each pose on /tf and on a topic of its own, which no tf listener
     receives.
@@ -145,12 +146,23 @@ def without_single(found: Transforms, topics: Collection[str]) -> Transforms:
         topics: Names of the topics of type TransformStamped.
     """
     is_single = np.array([one.topic in topics for one in found.publishers], dtype=np.bool_)
-    if not is_single.any():
-        return found
     masks = [is_single[found.senders_of(edge)] for edge in found.edges]
     sent = {edge.child for edge, mask in zip(found.edges, masks, strict=True) if not mask.all()}
+    return [mask & (edge.child in sent) for edge, mask in zip(found.edges, masks, strict=True)]
+
+
+def without_single(found: Transforms, topics: Collection[str]) -> Transforms:
+    """Leave out transforms of topics of type TransformStamped, for frames that tf topics have, too.
+
+    Args:
+        found: All transforms of a recording.
+        topics: Names of the topics of type TransformStamped.
+    """
+    if not topics:
+        return found
+    masks = superfluous(found, topics)
     edges = (
-        edge.chosen(~mask) if edge.child in sent and mask.any() else edge
+        edge.chosen(~mask) if mask.any() else edge
         for edge, mask in zip(found.edges, masks, strict=True)
     )
     return replace(found, edges=tuple(edge for edge in edges if len(edge)))
