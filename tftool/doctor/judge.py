@@ -30,6 +30,7 @@ from tftool.doctor import publisher_checks as publishers
 from tftool.doctor import shape_checks as shape
 from tftool.doctor import stamp_checks as stamps
 from tftool.doctor import static_checks as statics
+from tftool.doctor import stop_checks as stops
 from tftool.doctor import value_checks as values
 from tftool.doctor.check import NEEDS, Check
 from tftool.doctor.evidence import Evidence, described_by, evidence_of, evidence_of_log
@@ -46,7 +47,7 @@ CHECKS: Mapping[str, Check] = {
     check.id: check
     for room in (
         *(publishers, statics, shape, heard_names, names, clocks, laps, stamps, delays),
-        *(gaps, outages, coverage, values, jumps, poses, odometry, mounts, description),
+        *(stops, gaps, outages, coverage, values, jumps, poses, odometry, mounts, description),
     )
     for check in room.check.checks
 }

@@ -11,13 +11,13 @@ import numpy as np
 from tftool.base.stamps import LATEST, NANOSECONDS, SIMULATED_BELOW, Duration, Stamp
 from tftool.doctor.clock_checks import COUNTS_FROM_0, cure_of_offset
 from tftool.doctor.coverage_checks import Waits, waits_of
-from tftool.doctor.gap_checks import edge_stopped
 from tftool.doctor.heard_names import alike_frames, is_navsat_output
 from tftool.doctor.missing_joins import is_world, mount_command, proposed_frame, proposed_join
 from tftool.doctor.model import Model
 from tftool.doctor.name_checks import wrong_type
 from tftool.doctor.shape_checks import nothing_says
 from tftool.doctor.stamp_stream import Heard, Track, last_part
+from tftool.doctor.stop_checks import edge_stopped
 from tftool.doctor.trace import LinkVerdict, LookupTrace, TracedLink
 from tftool.doctor.value_checks import bad_quaternion
 from tftool.doctor.wording import (

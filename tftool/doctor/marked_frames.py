@@ -4,9 +4,9 @@ from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW
 from tftool.buffer.buffer import Buffer
 from tftool.doctor.clock_checks import clock_mixture
 from tftool.doctor.evidence import evidence_of_buffer
-from tftool.doctor.gap_checks import edge_stopped
 from tftool.doctor.model import Model
 from tftool.doctor.publisher_checks import two_parents
+from tftool.doctor.stop_checks import edge_stopped
 
 
 def marked(buffer: Buffer) -> dict[str, tuple[str, ...]]:
