@@ -1,6 +1,10 @@
 """Tests of launches on the wall clock, where programs' threads run side by side."""
 
 import asyncio
+import gc
+import itertools
+import sys
+from types import ModuleType
 
 from tests.patience import PATIENCE
 from tests.ros.tutorial import Launched
@@ -73,3 +77,30 @@ def test_nodes_of_one_name_live_side_by_side(tmp_path):
     assert all(done.said(f"same.py-{number}").count("here") == 1 for number in range(1, 5))
     named = [text for who in range(1, 5) for text in done.said(f"same.py-{who}") if "shown" in text]
     assert len(named) == 3
+
+
+def test_a_program_starts_while_the_garbage_collector_lets_others_import(tmp_path):
+    package(tmp_path, alone="import rclpy\nrclpy.init()\n")
+    file = tmp_path / "one.launch.yaml"
+    file.write_text("launch:\n- node: {pkg: pkg, exec: alone.py}\n")
+    numbers = itertools.count()
+    added: list[str] = []
+
+    def import_another(phase, info):
+        # As finalizers do, during which other programs run on.
+        added.append(f"imported_meanwhile_{next(numbers)}")
+        sys.modules[added[-1]] = ModuleType(added[-1])
+
+    before = gc.get_threshold()
+    gc.callbacks.append(import_another)
+    gc.set_threshold(2, 1_000, 1_000)
+    try:
+        done = launch_live(file, tmp_path)
+    finally:
+        gc.set_threshold(*before)
+        gc.callbacks.remove(import_another)
+        for name in added:
+            sys.modules.pop(name, None)
+
+    assert added
+    assert done.failed == [], "\n".join(map(str, done.lines))

@@ -457,13 +457,20 @@ def unload_hidden(folder: Path) -> None:
     """
     names = {one.stem for one in folder.iterdir()}
     roots = [] if _finder is None else _finder.roots
-    for name, module in list(sys.modules.items()):
+    for name, module in _modules():
         # Most modules have another name; their files need not be looked at.
         if name.partition(".")[0] not in names:
             continue
         file = _file_of(module)
         if not file.is_relative_to(folder) and _is_users(file, roots):
-            del sys.modules[name]
+            sys.modules.pop(name, None)  # Another program may have removed it meanwhile.
+
+
+def _modules() -> Iterable[tuple[str, ModuleType]]:
+    """Return the imported modules by name, while programs in other threads import further ones."""
+    # `list(sys.modules.items())` fails then: it creates tuples, which may start the garbage
+    # collector, whose finalizers let other threads run. A copy of the dictionary creates none.
+    return sys.modules.copy().items()
 
 
 def search_last(roots: Callable[[], Iterable[str]]) -> None:
@@ -485,8 +492,8 @@ def import_fresh(module: str, root: Path) -> ModuleType:
     """
     with IMPORTING:
         search_first(root)
-        for name, imported in list(sys.modules.items()):
+        for name, imported in _modules():
             if _is_users(_file_of(imported), [root]):
-                del sys.modules[name]
+                sys.modules.pop(name, None)
         importlib.invalidate_caches()
         return importlib.import_module(module)
