@@ -310,6 +310,17 @@ def test_two_sensors_of_one_clock_are_one_finding():
     assert finding.message == words
 
 
+def test_a_topic_that_two_computers_send_has_no_offset_of_its_own():
+    made = robot()
+    made.hears("/imu", "laser", 50.0, "sensor_msgs/Imu", latency=-1340.0)
+    for late in (-1340.0, 0.0):
+        made.hears("/diagnostics", "", 2.0, "diagnostic_msgs/DiagnosticArray", latency=late)
+    finding = found(made, "clock-offset")
+    (line,) = finding.evidence
+    assert "/imu: -22.3 minutes" in line
+    assert "/diagnostics" not in line
+
+
 def test_the_consequence_of_stamps_is_that_of_the_data():
     made = robot()
     made.hears("/imu", "laser", 50.0, "sensor_msgs/Imu", latency=-0.4)

@@ -25,6 +25,12 @@ _PLAY_AGAIN = Fix("a recording was played beside nodes that run on the present t
 _BOTH = 0.05
 """Fraction of an edge's samples on another clock above which they come from a second source."""
 
+_JITTER = seconds(1)
+"""Maximum difference of a message's latency from the median latency of its clock, nanoseconds."""
+
+_MOST = 0.75
+"""Fraction of a stream's messages above which their latency is that of the stream."""
+
 _ONE_CLOCK = seconds(0.05)
 """Maximum difference between two offsets, nanoseconds, that belong to one clock."""
 
@@ -595,11 +601,17 @@ def _is_one_period(stream: "Track | Heard") -> bool:
 
 
 def _offsets(model: Model) -> list[str]:
-    """Return a line for each group of streams whose latency, rounded to 20 ms, is equal."""
+    """Return a line for each group of streams whose latency, rounded to 20 ms, is equal.
+
+    A stream without one latency, such as a topic that two computers send, is left out.
+    """
     grouped: dict[int, list[str]] = defaultdict(list)
     streams: list[Track | Heard] = [*model.dynamic, *model.heard]
     for one in streams:
-        if len(one.stamps) > 2:
+        near = np.abs(one.latency - one.median_latency) < max(
+            _JITTER, abs(one.median_latency) // 100
+        )
+        if len(one.stamps) > 2 and np.mean(near) > _MOST:
             grouped[round(one.median_latency / seconds(0.02))].append(one.name)
     return [
         f"{', '.join(dict.fromkeys(names[:4]))}: {span(step * 20_000_000)}"
