@@ -321,7 +321,7 @@ def test_a_network_that_is_gone_for_a_time_is_one_finding(lost):
     silent(made, 3.0, 6.0, lost)
     finding = found(made, "outage")
     assert finding.message == "nothing arrived for 3.02 s on 2 of 2 streams"
-    assert ("on 1 of them, data of that time is missing" in finding.evidence[0]) == lost
+    assert ("on 1 of 2 streams, data of that time is missing" in finding.evidence[0]) == lost
     assert finding.topics == ("/scan",)
     # The lidar continues, so not all streams stop.
     made = robot()
@@ -351,10 +351,10 @@ def test_a_stream_that_begins_in_an_outage_is_not_silent():
     for begin, end in ((0.0, 5.9), (10.0, 20.0)):
         made.hears("/scan", "laser", begin=begin, end=end)
     made.moving("odom", "base_link", begin=8.0, end=20.0)
-    # From the last scan, at 5.815 s, to the next one, at 10.015 s.
-    assert found(made, "outage").message == (
-        "nothing arrived for 4.20 s on 3 of 4 streams, and for 10.02 s on 2 of them"
-    )
+    # The arm is silent from 3.985 s to 14.005 s, and the lidar from 5.815 s to 10.015 s.
+    finding = found(made, "outage")
+    assert finding.message == ("nothing arrived for 10.02 s on 2 of 4 streams, and for 4.20 s on 3")
+    assert finding.facts["begin"] == seconds(START) + seconds(3.985)
 
 
 @pytest.mark.parametrize("ahead", [0.0, 80.0])
@@ -370,14 +370,14 @@ def test_each_outage_is_told_whatever_the_offset_of_the_clock(ahead):
         "nothing arrived for 6.02 s on 2 of 2 streams, the longest of 2 outages (9.04 s in all)"
     )
     assert finding.count == 2
-    assert "on 2 of them, data of that time is missing (up to 6.10 s)" in finding.evidence[0]
+    assert "on 2 of 2 streams, data of that time is missing (up to 6.10 s)" in finding.evidence[0]
     # Some data of the outage is lost, but less than half.
     held = robot(scans=False)
     held.hears("/scan", "laser", end=3.0)
     held.hears("/scan", "laser", begin=4.0)
     silent(held, 2.0, 6.0, lost=False)
     told = found(held, "outage").evidence[0]
-    assert "on 1 of them, data of that time is missing (up to 1.10 s)" in told
+    assert "on 1 of 2 streams, data of that time is missing (up to 1.10 s)" in told
 
 
 def test_messages_as_late_as_their_transforms_are_placed():

@@ -52,6 +52,19 @@ def test_a_hole_that_others_have_too_names_them():
     assert any("; at the same time: " in line for line in lines)
 
 
+@pytest.mark.parametrize("held", [True, False])
+def test_a_hole_in_a_stall_tells_the_stall(held):
+    made = robot(odometry=False)
+    made.moving("odom", "base_link", without=(3.0, 4.0))
+    if held:
+        # The samples from 2.5 s on wait until 4.2 s; the one before arrived at 2.485 s.
+        low, high = made.log(2.5), made.log(4.2)
+        made.messages = [(high if low < at < high else at, n) for at, n in made.messages]
+    (line,) = found(made, "gap").evidence
+    told = "no sample arrived for up to 1.72 s, and the next sample was late"
+    assert line.endswith(f"; during this gap, {told}") is held
+
+
 def test_a_hole_of_what_is_published_on_change_is_a_note():
     made = robot()
     at = 0.0

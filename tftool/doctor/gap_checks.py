@@ -11,6 +11,7 @@ from tftool.doctor.check import checks_of, hit_of
 from tftool.doctor.findings import Area, Fix, Hit, Severity
 from tftool.doctor.missing_joins import is_world
 from tftool.doctor.model import WARM_UP, Limits, Model
+from tftool.doctor.outage_checks import stalls_of
 from tftool.doctor.stamp_stream import (
     BASES,
     NEVER,
@@ -193,6 +194,7 @@ def gap(model: Model, limits: Limits) -> Iterator[Hit]:
             least = _least_gap(track, _short(limits) if again else limits)
             total = span(sum(high - low for low, high in every))
             why += f"; the longest of {len(every)} gaps above {span(least)}, {total} in all"
+        why += _stalled(track, every) if model.evidence.timed else ""
         yield hit_of(
             track,
             {
@@ -215,6 +217,19 @@ def gap(model: Model, limits: Limits) -> Iterator[Hit]:
             else Severity.WARNING,
             fixes=(cure,),
         )
+
+
+def _stalled(track: Track, found: list[tuple[int, int]]) -> str:
+    """Return a clause about the gaps of an edge during which the edge stalls; "" without any."""
+    places = stalls_of(track)
+    low, high = (track.arrivals[at] - track.median_latency for at in (places, places + 1))
+    in_gap = [(low < end) & (high > begin) for begin, end in found]
+    number = sum(bool(one.any()) for one in in_gap)
+    if not number:
+        return ""
+    longest = span(int((high - low)[np.logical_or.reduce(in_gap)].max()))
+    which = "this gap" if len(found) == 1 else f"{number} of these gaps"
+    return f"; during {which}, no sample arrived for up to {longest}, and the next sample was late"
 
 
 def _is_steady_and_moved(track: Track, found: list[tuple[int, int]]) -> bool:

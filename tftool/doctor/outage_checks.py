@@ -10,7 +10,7 @@ from tftool.base.stamps import NANOSECONDS, Duration, Stamp
 from tftool.doctor.check import checks_of, hit_of
 from tftool.doctor.findings import Area, Fact, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
-from tftool.doctor.stamp_stream import Heard, Track
+from tftool.doctor.stamp_stream import Heard, Places, Track
 from tftool.doctor.wording import moment, several, span
 
 check = checks_of(Area.COVERAGE)
@@ -23,7 +23,8 @@ Name = TypeVar("Name")
     Severity.WARNING,
     rule="on half or more of the streams with {hz:g} Hz or more, nothing arrives for more than "
     "{seconds:g} s and {periods:g} periods. One of these streams or more is a topic, and one or "
-    "more is a transform. Afterwards the streams continue, with a gap in their stamps or with "
+    "more is a transform. If half or more are silent more than twice as long as all of them, the "
+    "headline is about these. Afterwards the streams continue, with a gap in their stamps or with "
     "delayed data. A constant difference between the clocks is subtracted first. A second case: "
     "{times:g} times, no message at all arrives for {again:g} s, and messages on /clock then "
     "arrive in a burst. The evidence also counts shorter times, of {short:g} s or more, without "
@@ -54,8 +55,11 @@ def outage(model: Model, limits: Limits) -> Iterator[Hit]:
         if one is not worst
     ]
     also = f"; also from {several(others, 3)}" if others else ""
-    total = span(sum(one.length for one in outages))
     again = _sent_again(model, outages)
+    facts = _headline(worst)
+    begin, end = int(str(facts["begin"])), int(str(facts["end"]))
+    apart = [one.length for one in outages if one.end <= begin or one.begin >= end]
+    total = span(end - begin + sum(apart))
     yield Hit(
         edges=_unique(s.edge for one in outages for s in one.streams if isinstance(s, Track)),
         topics=_unique(s.topic for one in outages for s in one.streams if isinstance(s, Heard)),
@@ -63,15 +67,10 @@ def outage(model: Model, limits: Limits) -> Iterator[Hit]:
         until=outages[-1].end,
         count=len(outages),
         facts={
-            "begin": worst.begin,
-            "end": worst.end,
-            "length": worst.length,
-            "streams": len(worst.streams),
+            **facts,
             "of": worst.of,
-            "names": [stream.name for stream in worst.streams],
             "lost": _lost(worst) + again + also + _shorter(worst, outages, limits),
-            "longer": _longer(worst),
-            "often": f", the longest of {len(outages)} outages ({total} in all)" if others else "",
+            "often": f", the longest of {len(apart) + 1} outages ({total} in all)" if apart else "",
         },
         fixes=(_RESTARTED if again else _NETWORK,),
         alone=True,
@@ -86,7 +85,8 @@ class _Outage:
         begin: Log time at which the last of the streams fell silent.
         end: Log time at which the first of the streams resumed.
         streams: The silent streams.
-        silences: For each silent stream, the time without arrivals around the outage, nanoseconds.
+        silences: For each silent stream, the log times of the last arrival before the outage and
+            of the first one after it.
         of: Number of streams that began before `end`.
         holes: For each silent stream, the largest step between the stamps of that time,
             nanoseconds; 0 if it is not above 3 periods.
@@ -97,7 +97,7 @@ class _Outage:
     begin: Stamp
     end: Stamp
     streams: tuple[Track | Heard, ...]
-    silences: tuple[Duration, ...]
+    silences: tuple[tuple[Stamp, Stamp], ...]
     of: int
     holes: tuple[Duration, ...]
     held: Duration
@@ -176,7 +176,7 @@ def _outages(model: Model, limits: Limits) -> list[_Outage]:
             begin,
             end,
             tuple(stream for _, _, stream in rows),
-            tuple(high - low for low, high, _ in rows),
+            tuple((low, high) for low, high, _ in rows),
             # A stream that begins meanwhile is not silent.
             sum(int(stream.logs[0]) < end for stream in judged),
             tuple(_hole(stream, begin, end) for _, _, stream in rows),
@@ -211,12 +211,26 @@ def _hole(stream: Track | Heard, begin: Stamp, end: Stamp) -> Duration:
     return hole if hole > 3 * int(np.median(steps)) else 0
 
 
-def _longer(outage: _Outage) -> str:
-    """Return a clause, if half or more of the streams were silent twice as long as all; or ""."""
-    longer = [silence for silence in outage.silences if silence > 2 * outage.length]
-    if 2 * len(longer) < outage.of:
-        return ""
-    return f", and for {span(min(longer))} on {len(longer)} of them"
+def _headline(outage: _Outage) -> dict[str, Fact]:
+    """Return the facts of an outage's headline.
+
+    If half or more of the streams were silent more than twice as long as all, the facts are those
+    of these streams.
+    """
+    rows = list(zip(outage.silences, outage.streams, strict=True))
+    longer = [row for row in rows if row[0][1] - row[0][0] > 2 * outage.length]
+    told, begin, end = "", outage.begin, outage.end
+    if 2 * len(longer) >= outage.of:
+        rows, told = longer, f", and for {span(outage.length)} on {len(rows)}"
+        begin, end = max(low for (low, _), _ in rows), min(high for (_, high), _ in rows)
+    return {
+        "begin": begin,
+        "end": end,
+        "length": end - begin,
+        "streams": len(rows),
+        "names": [stream.name for _, stream in rows],
+        "longer": told,
+    }
 
 
 def _lost(outage: _Outage) -> str:
@@ -224,7 +238,8 @@ def _lost(outage: _Outage) -> str:
     lost = "all data of that time arrived afterwards"
     if any(outage.holes):
         wide = sum(map(bool, outage.holes))
-        lost = f"on {wide} of them, data of that time is missing (up to {span(max(outage.holes))})"
+        lost = f"on {wide} of {len(outage.streams)} streams, data of that time is missing "
+        lost += f"(up to {span(max(outage.holes))})"
     return f"{lost}; {several(outage.gone)} never resumed" if outage.gone else lost
 
 
@@ -247,8 +262,8 @@ def _shorter(worst: _Outage, outages: list[_Outage], limits: Limits) -> str:
         return ""
     total, longest = span(int(steps[short].sum())), span(int(steps[short].max()))
     return (
-        f"; on all of these streams, nothing arrived {number} more times, for up to {longest} "
-        f"({total} in all)"
+        f"; on {len(worst.streams)} streams, nothing arrived {number} more times, for up to "
+        f"{longest} ({total} in all)"
     )
 
 
@@ -313,6 +328,10 @@ _BURST = 3
 """Number of messages of `/clock` that arrive at once after the receiver stalled."""
 
 
+STALL = {"seconds": 0.5, "periods": 10, "samples": 50}
+"""Usual thresholds of `stall`."""
+
+
 @check(
     "stall",
     Severity.NOTE,
@@ -324,7 +343,7 @@ _BURST = 3
     "{period:span}",
     consequence="the delayed messages arrive late, in one burst",
     causes=("load", "a network that drops messages", "a node that waits for another"),
-    limits={"seconds": 0.5, "periods": 10, "samples": 50},
+    limits=STALL,
     needs=("log times",),
     because_of=(
         ("anything", "time-jump-back"),
@@ -336,20 +355,26 @@ def stall(model: Model, limits: Limits) -> Iterator[Hit]:
     odometry = (h for h in model.heard if h.type == "nav_msgs/Odometry")
     streams: list[Track | Heard] = [*model.dynamic, *odometry]
     for stream in streams:
-        steps = np.diff(stream.logs)
-        if len(steps) < limits["samples"] or stream.families[0]:
-            continue
-        period, usual = int(np.median(np.diff(np.sort(stream.stamps)))), stream.median_latency
-        least = max(limits["periods"] * period, limits["seconds"] * NANOSECONDS)
-        held = stream.latency[1:] - usual > 0.5 * steps
-        places = np.flatnonzero((steps > least) & held)
+        places = stalls_of(stream, limits)
         if len(places):
+            steps = np.diff(stream.logs)
             place = int(places[steps[places].argmax()])
             facts: dict[str, Fact] = {
                 "what": stream.name,
                 "length": int(steps[place]),
                 "begin": int(stream.logs[place]),
-                "period": period,
+                "period": int(np.median(np.diff(np.sort(stream.stamps)))),
                 "stalls": len(places),
             }
             yield hit_of(stream, facts, since=int(stream.logs[place]), count=len(places))
+
+
+def stalls_of(stream: Track | Heard, limits: Limits = STALL) -> Places:
+    """Return the indices of the messages after which a regular stream stalls."""
+    steps = np.diff(stream.logs)
+    if len(steps) < limits["samples"] or stream.families[0]:
+        return np.zeros(0, dtype=np.intp)
+    period = int(np.median(np.diff(np.sort(stream.stamps))))
+    least = max(limits["periods"] * period, limits["seconds"] * NANOSECONDS)
+    held = stream.latency[1:] - stream.median_latency > 0.5 * steps
+    return np.flatnonzero((steps > least) & held)
