@@ -80,6 +80,10 @@ def test_joint_states_without_transforms_of_joints_need_robot_state_publisher():
     finding = found(made, "static-missing")
     assert "no transform of a joint (no robot_state_publisher?)" in finding.message
     assert finding.fixes[0].text.startswith("check whether robot_state_publisher runs")
+    # Only the description could prove that the publisher would send the frame of the scans.
+    assert "it publishes only links of the description: look there for laser)" in (
+        finding.fixes[0].text
+    )
     assert not any("record /tf" in fix.text for fix in finding.fixes)
     made.moving("base_link", "wheel")
     assert "if so, record /tf" in found(made, "static-missing").fixes[0].text

@@ -12,7 +12,13 @@ from tftool.base.stamps import NANOSECONDS
 from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Fix, Hit, Severity
 from tftool.doctor.gap_checks import gap, holes
-from tftool.doctor.missing_joins import has_base, is_mount, own_base, static_publisher
+from tftool.doctor.missing_joins import (
+    has_base,
+    is_mount,
+    own_base,
+    start_of_publisher,
+    static_publisher,
+)
 from tftool.doctor.model import WARM_UP, Limits, Model
 from tftool.doctor.stamp_checks import stands_still
 from tftool.doctor.stamp_stream import NEVER, PLACED, Heard, Track, last_part
@@ -59,6 +65,7 @@ def static_missing(model: Model, limits: Limits) -> Iterator[Hit]:
     if not unknown:
         return
     static = [topic for topic in model.evidence.topics if topic.static]
+    names = sorted({heard.frame.removeprefix("/") for heard in unknown})
     why = "the recording has no /tf_static"
     if static:
         why = f"{static[0].name} has no message"
@@ -68,11 +75,7 @@ def static_missing(model: Model, limits: Limits) -> Iterator[Hit]:
     )
     if model.lacks_state_publisher:
         why = "joint states arrived, but no transform of a joint (no robot_state_publisher?)"
-        cure = (
-            "check whether robot_state_publisher runs; if not, start it with the robot's "
-            "description"
-        )
-    names = sorted({heard.frame.removeprefix("/") for heard in unknown})
+        cure = start_of_publisher(model, names)
     fixes = [Fix(cure)]
     if not model.lacks_state_publisher:
         parent = own_base(model, names[0]) or "PARENT"

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from tftool.doctor.findings import Edge, Fix
 from tftool.doctor.model import Model, Tree
 from tftool.doctor.stamp_stream import BASES, JOINT_STATES, Heard, Track, last_part
-from tftool.doctor.wording import is_ros1
+from tftool.doctor.wording import is_ros1, several
 from tftool.geometry.rigid import Transform
 
 _PLAIN = frozenset({"base", "link", "frame", "footprint", "body", ""})
@@ -269,8 +269,7 @@ def _mount(model: Model, text: str, parent: str, child: str, pose: Transform | N
         return Fix(text, static_publisher(parent, child, pose, ros1=is_ros1(model.evidence)))
     if model.lacks_state_publisher:
         return Fix(
-            "check whether robot_state_publisher runs; if not, start it with the robot's "
-            "description; to repair the recording:",
+            f"{start_of_publisher(model, [child])}; to repair the recording:",
             "tftool edit RECORDING -o WHOLE --statics-from DESCRIPTION",
         )
     # The robot probably sends it: a second publisher would contradict the first one.
@@ -279,6 +278,17 @@ def _mount(model: Model, text: str, parent: str, child: str, pose: Transform | N
         "take the statics from another recording or the robot description:",
         "tftool edit RECORDING -o WHOLE --statics-from OTHER",
     )
+
+
+def start_of_publisher(model: Model, frames: Sequence[str]) -> str:
+    """Return the remedy for frames that robot_state_publisher would publish, if it does not run.
+
+    Without the description, nothing proves that the frames are links of the robot.
+    """
+    text = "check whether robot_state_publisher runs; if not, start it with the robot's description"
+    if unproved := [frame for frame in frames if frame not in model.described]:
+        text += f" (it publishes only links of the description: look there for {several(unproved)})"
+    return text
 
 
 def distinctive_words(name: str) -> frozenset[str]:
