@@ -509,6 +509,7 @@ def test_a_localiser_beside_a_recorded_one_is_told_as_two_sources():
     live = [(stamp + seconds(168 * 3600), pose, number) for stamp, pose, number in rows]
     made.records["map", "odom", False] = [*live, *rows[::2]]
     finding = found(made, "clock-offset")
+    assert "odom in map: -168 hours" in finding.evidence[0]
     assert "odom in map is on two clocks: 80 of its samples" in finding.evidence[0]
     # A command that drops the transform would remove the samples of both sources.
     assert not any(fix.command for fix in finding.fixes)

@@ -603,15 +603,14 @@ def _is_one_period(stream: "Track | Heard") -> bool:
 def _offsets(model: Model) -> list[str]:
     """Return a line for each group of streams whose latency, rounded to 20 ms, is equal.
 
-    A stream without one latency, such as a topic that two computers send, is left out.
+    A topic without positions whose latencies differ, as if two computers sent it, is left out.
     """
     grouped: dict[int, list[str]] = defaultdict(list)
     streams: list[Track | Heard] = [*model.dynamic, *model.heard]
     for one in streams:
-        near = np.abs(one.latency - one.median_latency) < max(
-            _JITTER, abs(one.median_latency) // 100
-        )
-        if len(one.stamps) > 2 and np.mean(near) > _MOST:
+        near = abs(one.latency - one.median_latency) < max(_JITTER, abs(one.median_latency) // 100)
+        has_one_clock = isinstance(one, Track) or one.is_spatial or np.mean(near) > _MOST
+        if len(one.stamps) > 2 and has_one_clock:
             grouped[round(one.median_latency / seconds(0.02))].append(one.name)
     return [
         f"{', '.join(dict.fromkeys(names[:4]))}: {span(step * 20_000_000)}"
