@@ -190,6 +190,21 @@ def test_a_recording_that_is_shifted_as_a_whole_is_one_finding(hours):
     assert sorted(ids(made)) == ["clock-offset", *["shifted-clock"] * is_ahead]
 
 
+@pytest.mark.parametrize(("spread", "told"), [(0.05, "shifted-clock"), (0.3, "stale-stamp")])
+def test_all_streams_that_are_late_by_one_constant_show_a_clock(spread, told):
+    made = Robot()
+    made.static("base_link", "laser")
+    made.moving("odom", "base_link", latency=1.39, node="/base")
+    made.hears("/scan", "laser", latency=1.39 + spread)
+    made.hears("/imu", "laser", 50.0, "sensor_msgs/Imu", latency=1.39)
+    late = [one for one in made.judged().findings if one.id in ("shifted-clock", "stale-stamp")]
+    assert [(one.id, one.severity) for one in late] == [(told, Severity.NOTE)]
+    if told == "shifted-clock":
+        assert late[0].message.startswith("most stamps are 1.39 s before their reception")
+        # A recording of 8 s that is played again would be late by 8 s or more.
+        assert late[0].fixes[0].text.endswith("chronyc tracking`)")
+
+
 def test_an_imu_on_the_right_clock_is_off_all_others():
     made = shifted(143.0)
     made.hears("/imu", "laser", 50.0, "sensor_msgs/Imu", latency=0.002)

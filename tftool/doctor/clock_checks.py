@@ -191,8 +191,10 @@ def _example(group: "list[Track | Heard]", simulated: bool) -> int:
     "shifted-clock",
     Severity.NOTE,
     rule="more than half of all streams have stamps that differ from their reception by the same "
-    "constant, more than 2 s and equal to within 1 s. If all streams are ahead of their reception, "
-    "only the half of the messages that waited least has to agree to within 1 s. Not reported if "
+    "constant, more than 2 s and equal to within 1 s. If the stamps of all streams, three or more, "
+    "are before their reception, and the differences agree to within 0.2 s, 0.5 s are enough. If "
+    "all streams are ahead of their reception, only the half of the messages that waited least has "
+    "to agree to within 1 s. Not reported if "
     "some transforms and messages with a position, such as those of a second robot, agree with the "
     "recorder's clock to within 1 s. A warning if the stamps are after the reception, because a "
     "recording that is played again cannot have such stamps",
@@ -545,8 +547,8 @@ def cure_of_offset(model: Model) -> Fix:
     """Return the remedy for stamps that differ from the time of reception."""
     if model.was_played:
         return _PLAY_AGAIN
-    # Data that was recorded before is stamped before its reception.
-    is_old = model.shift is not None and model.shift.by > 0
+    # Data that was recorded before is stamped before its reception, by at least its own length.
+    is_old = model.shift is not None and model.shift.by > model.end - model.start
     return _LOOKS_THE_SAME if is_old else COMPARE_CLOCKS
 
 

@@ -85,6 +85,12 @@ _A_FEW = 3
 SHIFT = seconds(2)
 """Minimum constant difference between stamps and reception that counts as a shift of the clock."""
 
+_LEAST_SHARED = seconds(0.5)
+"""The same for stamps before their reception, if the differences of all streams agree."""
+
+_SHARED = seconds(0.2)
+"""Maximum difference between delays of streams, and within a stream, that agree."""
+
 
 @dataclass(frozen=True, slots=True)
 class Shift:
@@ -594,7 +600,8 @@ class Model:
                 moving.append(int(middle))
         by = sorted(late)[len(late) // 2] if late else 0
         # A single stream may be late by seconds for its own reasons, but not by hours.
-        if abs(by) <= (SHIFT if len(late) > 1 else WILD):
+        is_shared = len(late) > 2 and max(late) - min(late) < _SHARED
+        if abs(by) <= (SHIFT if len(late) > 1 else WILD) and not (is_shared and by > _LEAST_SHARED):
             return
         # Compared with days, seconds are network delay; the smallest delay shows the clock.
         near = max(LAP, abs(by) // 10_000)
@@ -604,7 +611,7 @@ class Model:
         spread, half = (sorted(ones)[len(alike) // 2] for ones in zip(*alike, strict=True))
         has_bursts = is_ahead and spread > LAP
         spread = half if has_bursts else spread
-        if 2 * len(alike) <= len(late) or spread > LAP:
+        if 2 * len(alike) <= len(late) or spread > (LAP if abs(by) > SHIFT else _SHARED):
             return
         prompt = [s for one, s in zip(late, kept, strict=True) if abs(one) < LAP]
         kinds = {type(s) for s in prompt if not (isinstance(s, Track) and s.is_localisation)}
