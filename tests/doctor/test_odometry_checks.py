@@ -82,6 +82,36 @@ def test_a_filter_far_below_the_positions_that_it_uses():
     assert ids(far_away(-8.0)) == []
 
 
+@pytest.mark.parametrize(
+    ("delay", "aside", "told"),
+    [
+        (0.085, 0.0, "tf is 85 ms later than the odometry: at equal times, the positions are 85"),
+        (
+            -0.5,
+            0.0,
+            "tf is 500 ms earlier than the odometry: at equal times, the positions are 0.49 m",
+        ),
+        (0.0, 0.04, None),
+    ],
+)
+def test_a_constant_delay_between_odometry_and_tf_is_told(delay, aside, told):
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "car/base_link", 20.0, lambda t: circle(t - delay, aside))
+    made.odometry = Robot()
+    made.odometry.moving("odom", "base_link", 50.0, circle, topic="/odom")
+    if told is None:
+        assert "odometry-tf-mismatch" not in ids(made, notes=True)
+        return
+    finding = found(made, "odometry-tf-mismatch")
+    assert finding.severity is Severity.NOTE
+    assert finding.evidence[0].startswith(told)
+
+
+def circle(t: float, aside: float = 0.0) -> tuple[float, ...]:
+    """Return the pose of a robot on a circle with a radius of 1 m, at 1 m/s."""
+    return (math.sin(t), 1.0 - math.cos(t) + aside, 0.0, *turned(t))
+
+
 def curve(t: float) -> tuple[float, ...]:
     """Return the pose of a robot that drives a left turn with a radius of 2 m at 0.2 m/s."""
     angle = 0.1 * t

@@ -11,7 +11,7 @@ from tftool.doctor.gap_checks import is_detection
 from tftool.doctor.missing_joins import is_world
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_stream import BASES, ROUNDED, Places, Track, are_same, last_part
-from tftool.doctor.wording import metres
+from tftool.doctor.wording import metres, span
 from tftool.geometry.rigid_arrays import Floats, angles_between, rotate, unit
 from tftool.recordings.contract import median, percentile
 
@@ -26,7 +26,10 @@ check = checks_of(Area.VALUES)
     "tf has no transform between these frames. A warning if a position in the message and "
     "one in tf, from any publisher and within {near:g} s, differ by more than {far:g} m and "
     "by more than the robot moved. A warning also if {poses:g} poses or more, with |y| above "
-    "{aside:g} m, are equal except for the sign of y, and no such pose has the same sign",
+    "{aside:g} m, are equal except for the sign of y, and no such pose has the same sign. A note "
+    "also if the positions at equal times differ by {mean:g} m or more (mean), and a constant "
+    "delay of {least:g} to {most:g} s removes {removed:%} of the difference, and a constant "
+    "distance less",
     headline="{topic} {differs} {edge}",
     detail="{found}",
     consequence="programs that use the message and programs that use tf may see the robot in "
@@ -43,6 +46,10 @@ check = checks_of(Area.VALUES)
         "far": 10.0,
         "poses": 10,
         "aside": 0.005,
+        "mean": 0.02,
+        "least": 0.02,
+        "most": 0.9,
+        "removed": 0.8,
     },
     needs=("odometry",),
     because_of=(
@@ -69,6 +76,7 @@ def odometry_tf_mismatch(model: Model, limits: Limits) -> Iterator[Hit]:
         if not track.static and len(track.by_stamp):
             hit = _far_apart(track, told, topic, limits)
             hit = hit or _mirrored(track, told, topic, limits)
+            hit = hit or _delayed(track, told, topic, limits)
             hit = hit or _disagreement(track, told, topic, model.end, limits)
         if hit is not None:
             yield hit
@@ -107,16 +115,86 @@ def _no_such_transform(model: Model, odometry: Track, topic: str) -> Hit:
 def _base_below(model: Model, odometry: Track) -> Track | None:
     """Return the tf edge from the parent in an Odometry message to the robot's base.
 
-    Return None if the message names a child frame, or if tf has no such edge.
+    Return None if the message names another child frame, or if tf has no such edge. tf may have a
+    prefix before the child frame of the message.
     """
     bases = [
         track
         for track in model.dynamic
         if track.parent == odometry.parent
         and last_part(track.child) in BASES
-        and not odometry.child
+        and odometry.child in ("", last_part(track.child))
     ]
     return bases[0] if bases else None
+
+
+def _delayed(track: Track, odometry: Track, topic: str, limits: Limits) -> Hit | None:
+    """Return a hit if an edge in tf and Odometry have the same poses with a constant delay.
+
+    The positions in Odometry are interpolated. Return None if no delay explains the difference.
+    """
+    told = odometry.sorted_stamps
+    if len(told) < _FEWEST:
+        return None
+    margin = seconds(limits["most"]) + _STEP
+    inside = (track.sorted_stamps > told[0] + margin) & (track.sorted_stamps < told[-1] - margin)
+    rows = np.flatnonzero(inside)
+    if len(rows) < _FEWEST:
+        return None
+    rows = rows[:: len(rows) // _MOST_COMPARED + 1]
+    stamps = track.sorted_stamps[rows]
+    mine, theirs = (
+        track.translations[track.by_stamp[rows]],
+        odometry.translations[odometry.by_stamp],
+    )
+
+    def away(delay: int) -> Floats:
+        columns = [np.interp(stamps - told[0] - delay, told - told[0], one) for one in theirs.T]
+        return np.stack(columns, axis=1) - mine
+
+    now = away(0)
+    apart, scattered = _mean_length(now), _mean_length(now - now.mean(axis=0))
+    if apart < limits["mean"]:
+        return None
+    delays = range(-margin, margin + _STEP, _STEP)
+    rest, delay = min((_mean_length(away(one)), one) for one in delays)
+    is_inner = seconds(limits["least"]) <= abs(delay) < margin
+    if not is_inner or rest > min((1.0 - limits["removed"]) * apart, 0.5 * scattered):
+        return None
+    side = "later" if delay > 0 else "earlier"
+    return Hit(
+        edges=(track.edge,),
+        topics=odometry.topics,
+        publishers=track.nodes,
+        since=int(track.logs.min()),
+        count=len(track.stamps),
+        facts={
+            "topic": topic,
+            "edge": track.name,
+            "differs": "and tf have different stamps for",
+            "apart": apart,
+            "turned": 0.0,
+            "delay": delay,
+            "found": f"tf is {span(abs(delay))} {side} than the odometry: at equal times, the "
+            f"positions are {metres(apart)} apart, and {metres(rest)} without this delay (means)",
+        },
+        fixes=(Fix("look at where the publishers of the two take their stamps from"),),
+        alone=True,
+    )
+
+
+def _mean_length(vectors: Floats) -> float:
+    return float(np.sqrt(np.einsum("ij,ij->i", vectors, vectors)).mean())
+
+
+_STEP = seconds(0.005)
+"""Difference between two delays that are compared, nanoseconds."""
+
+_FEWEST = 20
+"""Minimum number of samples, and of messages, from which a delay is computed."""
+
+_MOST_COMPARED = 2000
+"""Maximum number of samples of a transform that are compared."""
 
 
 def _disagreement(
