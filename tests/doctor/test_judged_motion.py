@@ -70,6 +70,20 @@ def test_the_odom_of_a_map_is_that_of_the_same_robot():
     assert "publish car1/odom in car1/map" in finding.fixes[0].text
 
 
+def test_a_missing_localiser_of_each_robot_is_one_finding():
+    made = fleet(("car0", "car1"))
+    for car in ("car0", "car1"):
+        made.moving(f"{car}/map", f"{car}/scanmatcher_frame")
+        made.hears(f"/{car}/slam", f"{car}/map", kind="geometry_msgs/PoseStamped")
+    findings = [one for one in made.judged().findings if one.id == "split-tree"]
+    (finding,) = [one for one in findings if "map" in one.message]
+    assert finding.message == (
+        "car0/map, car1/map are not joined to the trees of car0/odom, car1/odom"
+    )
+    assert finding.fixes[0].text.endswith("; so for car1/map")
+    assert len(finding.evidence) == 2
+
+
 @pytest.mark.parametrize("others", [("p4",), ("p4", "p5")])
 def test_the_robot_that_agrees_with_the_recorder_is_not_blamed(others):
     made = fleet(("p1", *others), ahead="p1")

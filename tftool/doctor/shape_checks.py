@@ -114,8 +114,9 @@ def _circling(links: set[tuple[str, str]]) -> set[tuple[str, str]]:
     "a smaller tree, beside a tree with a base frame. A note if each tree is a whole robot, "
     "if two trees contain one frame in two conventions (odom, odom_ned) and no message is in "
     "one of these trees, or if the recording is shorter than {seconds:g} s. A note too if nothing "
-    "in a tree moves, it has no base frame, and of the recorded messages none is in the tree",
-    headline="{named} {many:is|are} not joined to the tree of {main_root}",
+    "in a tree moves, it has no base frame, and of the recorded messages none is in the tree. "
+    "Trees with the same remedy in several robots, except for the names, are one finding",
+    headline="{named} {many:is|are} not joined to the {trees} of {main_root}",
     detail="tree {number}: {frames}{users}{evidence}",
     consequence="lookups between these frames and {main_root} fail",
     causes=(
@@ -144,6 +145,30 @@ def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
     """The frames form several trees, and a transform between them is missing."""
     if len(model.trees) < 2:
         return
+    alike: dict[tuple[str, Severity | None], list[Hit]] = defaultdict(list)
+    for hit in _split_trees(model, limits):
+        own = prefix(str(hit.facts["main_root"]))
+        cure = hit.fixes[0].line.replace(own, "") if own else f"{hit.frames} {hit.fixes[0].line}"
+        alike[cure, hit.severity].append(hit)
+    for hits in alike.values():
+        if len(hits) > 1 and all(hit.alone for hit in hits):
+            yield from _of_each_robot(hits)
+        else:
+            yield from hits
+
+
+def _of_each_robot(hits: Sequence[Hit]) -> Iterator[Hit]:
+    """Yield hits about one cause, once for each of several robots, as parts of one finding."""
+    roots = several([hit.facts["main_root"] for hit in hits])
+    others = several([hit.facts["root"] for hit in hits[1:]])
+    fix = replace(hits[0].fixes[0], text=f"{hits[0].fixes[0].text}; so for {others}")
+    for hit in hits:
+        facts = {**hit.facts, "main_root": roots, "trees": "trees"}
+        yield replace(hit, facts=facts, fixes=(fix,), alone=False, group=roots)
+
+
+def _split_trees(model: Model, limits: Limits) -> Iterator[Hit]:
+    """Yield a hit for each tree beside the main one."""
     main = next((tree for tree in model.trees if base_of(tree)), model.trees[0])
     others = [tree for tree in model.trees if tree is not main]
     for number, tree in enumerate(others, start=2):
@@ -172,6 +197,7 @@ def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
                 "root": tree.root,
                 "named": tree.root,
                 "main_root": own.root,
+                "trees": "tree",
                 "number": number,
                 "used": used,
                 "users": f"; used by {several(used)}"
