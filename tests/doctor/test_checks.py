@@ -281,6 +281,22 @@ def test_a_short_recording_does_not_tell_a_mount_from_what_rests():
     assert ids(made, notes=True) == []
 
 
+@pytest.mark.parametrize("case", ["sparse", "dense", "ahead", "other sensor"])
+def test_a_mount_that_comes_rarely_while_its_sensor_needs_it_is_shown(case):
+    made = robot()
+    ahead = 2.0 if case == "ahead" else 0.0
+    for at in range(0, 80, 5 if case == "dense" else 15):
+        made.sent("base_link", "imu_link", at / 10 + ahead, latency=0.002 - ahead, node="/radio")
+    made.hears("/imu", "laser" if case == "other sensor" else "imu_link", 25.0, "sensor_msgs/Imu")
+    if case != "sparse":
+        assert "static-on-tf" not in ids(made)
+        return
+    finding = found(made, "static-on-tf")
+    assert finding.severity is Severity.WARNING
+    assert "of 200 sensor messages in its 5 gaps above 1 s, of up to 1.50 s" in finding.evidence[0]
+    assert finding.fixes[0].text == "if it is a mount, send it on /tf_static"
+
+
 def test_a_resting_frame_that_could_move_is_not_reported_as_static_on_tf():
     # Another wheel moves.
     wheels = long_drive("wheel_left")

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from tftool.base.plain_text import count
 from tftool.base.stamps import NANOSECONDS, as_seconds
 from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.conflicts import find_publishers
@@ -258,14 +259,16 @@ def _same(track: Track, one: int, other: int, limits: Limits) -> bool:
     rule="{samples:g} samples or more of a moving transform, over {seconds:g} s or more, are all "
     "equal while the parent frame moves. Not reported if joint states, the robot description, "
     "odometry, another transform of the same messages, a moving frame of similar name, or a "
-    "fixed joint of the robot below the frame shows that the frame can move",
-    headline="{where} never {concerned:changes and is|change and are} sent on /tf",
-    detail="{edge}: {rate:.3g} Hz, for {lasts:span}",
+    "fixed joint of the robot below the frame shows that the frame can move. A warning, also for "
+    "shorter times, if {gaps:g} steps between the samples or more are above {long:g} s, and a "
+    "share of {share:g} of the messages of the sensors below the frame has stamps in these steps",
+    headline="{where} never {concerned:changes and is|change and are} sent on /tf{rarely}",
+    detail="{edge}: {rate:.3g} Hz, for {lasts:span}{needed}",
     consequence="if the transform is a mount, lookups wait for its next sample, unless the stamps "
     "are ahead",
     causes=("the static publisher of the old tf package",),
     links=threads("orbbec/ros_astra_camera#89"),
-    limits={"samples": 20, "seconds": 60.0},
+    limits={"samples": 20, "seconds": 60.0, "gaps": 3, "long": 1.0, "share": 0.25},
     needs=("recording",),
     why="a constant sent at 10 Hz on /tf makes every lookup wait for up to 100 ms, unless its "
     "stamps are ahead. A joint at rest looks like a constant, and a short recording cannot "
@@ -281,9 +284,14 @@ def static_on_tf(model: Model, limits: Limits) -> Iterator[Hit]:
     families = {family(track.child) for track in moving}
     may_move = [*moving, *_joints_by_statics(model)]
     for track in model.dynamic:
-        if track.is_localisation or track.moves or len(track.by_stamp) < max(limits["samples"], 1):
+        if track.is_localisation or track.moves or len(track.by_stamp) < 2:
             continue
-        if track.sorted_stamps[-1] - track.sorted_stamps[0] < limits["seconds"] * NANOSECONDS:
+        lasts = int(track.sorted_stamps[-1] - track.sorted_stamps[0])
+        is_long = len(track.by_stamp) >= limits["samples"] and lasts >= (
+            limits["seconds"] * NANOSECONDS
+        )
+        needed = _needed_in_gaps(model, track, limits)
+        if not (is_long or needed):
             continue
         if track.child in carried or family(track.child) in families:
             continue  # it changes its parent, or similar frames move
@@ -298,11 +306,40 @@ def static_on_tf(model: Model, limits: Limits) -> Iterator[Hit]:
             {
                 "rate": rate(track),
                 "period": track.period,
-                "lasts": int(track.sorted_stamps[-1] - track.sorted_stamps[0]),
+                "lasts": lasts,
+                "needed": needed,
+                "rarely": ", rarely" if needed else "",
             },
             since=None,
+            severity=Severity.WARNING if needed else None,
+            fixes=(Fix("if it is a mount, send it on /tf_static"),) if needed else (),
             confidence=Confidence.POSSIBLE,
         )
+
+
+def _needed_in_gaps(model: Model, track: Track, limits: Limits) -> str:
+    """Return a clause about sensor messages with stamps in long gaps of an edge; "" if few."""
+    steps = np.diff(track.sorted_stamps)
+    wide = np.flatnonzero(steps > limits["long"] * NANOSECONDS)
+    if len(wide) < limits["gaps"] or track.median_latency < -limits["long"] * NANOSECONDS / 2:
+        return ""  # or ROS 1 dates it ahead by its period
+    below = model.below(track.child)
+    stamps = [
+        heard.stamps
+        for heard in model.heard
+        if heard.is_spatial
+        and heard.type.startswith("sensor_msgs/")
+        and heard.frame.removeprefix("/") in below
+    ]
+    every = np.concatenate([np.zeros(0, dtype=np.int64), *stamps])
+    before = np.searchsorted(track.sorted_stamps, every) - 1
+    inside = int(np.count_nonzero(np.isin(before, wide)))
+    if not inside or inside < limits["share"] * len(every):
+        return ""
+    return (
+        f"; {inside} of {count(len(every), 'sensor message')} in its {len(wide)} gaps above "
+        f"{limits['long']:g} s, of up to {span(int(steps.max()))}"
+    )
 
 
 def _could_move(model: Model, track: Track) -> bool:
