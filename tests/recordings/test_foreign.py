@@ -189,3 +189,23 @@ def test_single_transforms_beside_tf_are_read_only_on_request(tmp_path, tf_topic
     (tmp_path / "a.mcap").write_bytes(stream.getvalue())
     with open_recording(tmp_path / "a.mcap", tf_topics=tf_topics) as recording:
         assert recording.buffer.parents("base") == parents
+
+
+@pytest.mark.parametrize(
+    ("kind", "payload"),
+    [
+        ("tf2_msgs/msg/TFMessage", {"transforms": [in_ros_json()]}),
+        ("foxglove.FrameTransform", in_json()),
+    ],
+)
+@pytest.mark.parametrize("edit", [("--rename", "map=world"), ("--drop", "map:base")])
+def test_an_edit_says_which_transforms_it_cannot_change(tftool, tmp_path, kind, payload, edit):
+    file = written(tmp_path / "a.mcap", kind, "json", [json.dumps(payload).encode()], topic="/tf")
+
+    done = tftool("edit", file, "-o", tmp_path / "b.mcap", *edit)
+    copied = tftool("edit", file, "-o", tmp_path / "c.mcap")
+
+    assert done.status == copied.status == 0
+    assert "The transforms on '/tf' are unchanged" in done.err
+    assert f"{kind} in json" in done.err
+    assert "unchanged" not in copied.err

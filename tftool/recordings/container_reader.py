@@ -151,8 +151,8 @@ class Recorded:
                 stream.encoding,
                 counts[name],
                 stream.text,
-                _has_transforms(stream),
-                _has_transforms(stream) and static[name],
+                has_transforms(stream),
+                has_transforms(stream) and static[name],
             )
             for name, stream in sorted(first.items())
         )
@@ -179,7 +179,7 @@ class Recorded:
         chosen = [
             number
             for number, stream in enumerate(streams)
-            if (_has_transforms(stream) if topics is None else stream.topic in topics)
+            if (has_transforms(stream) if topics is None else stream.topic in topics)
         ]
         table = Table(self._container.expected(chosen))
         cutters: dict[tuple[Layout, bool], Cutter] = {}
@@ -368,7 +368,8 @@ def _is_tf(stream: Channel) -> bool:
     return short_type(stream.type) in TRANSFORM_TYPES and stream.encoding in LAYOUTS
 
 
-def _has_transforms(stream: Channel) -> bool:
+def has_transforms(stream: Channel) -> bool:
+    """Whether the messages of a stream are transforms, of ROS or of other types."""
     return _is_tf(stream) or (short_type(stream.type), stream.encoding) in FOREIGN
 
 

@@ -21,10 +21,11 @@ from tftool.base.stamps import Stamp
 from tftool.recordings.channel import Channel
 from tftool.recordings.chunked import Chunk, ChunkedReader
 from tftool.recordings.container import Block, ContainerReader, MessageTable
+from tftool.recordings.container_reader import LAYOUTS, has_transforms
 from tftool.recordings.containers import PACKED_SUFFIX, container_named, container_of
 from tftool.recordings.contract import Progress
 from tftool.recordings.decompression import zstandard
-from tftool.recordings.edit.changes import Edits
+from tftool.recordings.edit.changes import Edits, carries_transforms
 from tftool.recordings.edit.database import EditedDatabase, Unsound
 from tftool.recordings.edit.heads import StaticHeads
 from tftool.recordings.edit.outputs import EditedFile, digest_table
@@ -528,6 +529,7 @@ class _Job:
             report.notes.append(
                 f"The frame names on '{topic}' are unchanged: {reason.rstrip('.')}."
             )
+        report.notes += self._unchanged_transforms()
         if self._edits.names and not self._edits.everywhere:
             report.notes += self._old_names()
         ros1 = any(
@@ -539,6 +541,24 @@ class _Job:
             )
         if not report.files:
             report.files = [self._path.name]
+
+    def _unchanged_transforms(self) -> Iterator[str]:
+        """Yield sentences about topics whose transforms have a form that an edit cannot change."""
+        if not self._edits.links:
+            return
+        channels = {one for reader in self._readers for one in reader.channels.values()}
+        has_lists = any(map(carries_transforms, channels))
+        for one in sorted(channels, key=lambda channel: channel.topic):
+            if carries_transforms(one) or not has_transforms(one):
+                continue
+            # Other topics beside /tf with single transforms of ROS: --everywhere changes names.
+            if (one.encoding in LAYOUTS and has_lists) or one.topic in self._changer.passed_over:
+                continue
+            yield (
+                f"The transforms on '{one.topic}' are unchanged: an edit changes "
+                f"tf2_msgs/TFMessage in the encodings of ROS, and these are {one.type} in "
+                f"{one.encoding}."
+            )
 
     def _old_names(self) -> Iterator[str]:
         """Yield sentences about topics in which frame names could not be changed."""
