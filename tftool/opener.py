@@ -49,14 +49,14 @@ def open_frames(
     urdf: "str | os.PathLike[str] | None" = None,
     with_odometry: bool = False,
     no_cache: bool = False,
-    tf_topics: Sequence[str] = (),
+    tf_topics: str | Sequence[str] = (),
     frames: str | None = None,
     pose_rate: float | None = None,
     pose_format: str | None = None,
     inverted: bool = False,
     axes: str | None = None,
     domain: int | None = None,
-    connects: Sequence[str] = (),
+    connects: str | Sequence[str] = (),
     session: "Session | None" = None,
     watch: "Callable[[World], object] | None" = None,
     glance: "Callable[[Frames, Duration], object] | None" = None,
@@ -81,14 +81,14 @@ def open_frames(
         urdf: File with the robot's description, for a recording that contains none.
         with_odometry: Whether odometry and poses in a recording count as transforms.
         no_cache: Whether to read the whole recording, and neither use nor write the column cache.
-        tf_topics: Topics whose transforms are read; all if empty. See `open_recording`.
+        tf_topics: Topic or topics whose transforms are read; all if empty. See `open_recording`.
         frames: Names of parent and child in a pose file: "odom:base_link".
         pose_rate: Poses per second, for a pose file without stamps.
         pose_format: Format of a pose file; None to detect the format.
         inverted: Whether to invert each pose of a pose file.
         axes: Axes of the cameras in a pose file: "opencv" or "opengl".
         domain: Number of the session's ROS domain; None for ROS_DOMAIN_ID, or else 0.
-        connects: Endpoints of sessions on other machines: "tcp/192.168.1.5:7448".
+        connects: Endpoint or endpoints of sessions on other machines: "tcp/192.168.1.5:7448".
         session: Joined session to listen to; None to join a session.
         watch: Function called with the world of a scenario or session before it runs.
         glance: Function called in another thread, repeatedly while a session is listened to, with
@@ -125,14 +125,14 @@ def open_frames(
     robot = DescriptionOptions(
         joints or {}, arguments or {}, Path(urdf) if urdf is not None else None
     )
-    recording = RecordingOptions(no_cache, with_odometry, tuple(tf_topics))
+    recording = RecordingOptions(no_cache, with_odometry, _several(tf_topics))
     word = None if place is None else os.fspath(place)
     far = None if word is None else reach_at(word)
     if word is None or far is not None:
         refuse_options_of_files(robot, recording, word)
         from tftool.world.link.session_world import join_to_listen, listened
 
-        given = {**reach, "connect": [*connects]}
+        given = {**reach, "connect": list(_several(connects))}
         if word is not None:
             refuse_beside_address(word, domain, given)
         session = session or join_to_listen(domain, far or read_reach(given))
@@ -153,6 +153,11 @@ def open_frames(
 
 
 # Which kind of source a word names
+
+
+def _several(given: "str | Sequence[str]") -> tuple[str, ...]:
+    # A text is a sequence of its letters, so one name in place of a list needs a case of its own.
+    return (given,) if isinstance(given, str) else tuple(given)
 
 
 def named(word: str) -> Found:

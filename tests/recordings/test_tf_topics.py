@@ -8,6 +8,7 @@ pytest.importorskip("mcap", reason="writes the test files")
 import tftool as library
 from tests.recordings.writers import SECOND, Sent, write_mcap
 from tftool.base.errors import InputError
+from tftool.recordings.recording import open_recording
 
 START = 1_750_000_000 * SECOND
 
@@ -45,6 +46,15 @@ def test_one_robot_keeps_its_names(run):
         found = frames.buffer.lookup_transform("map", "laser", frames.at(1.0))
 
     assert found.transform.translation == pytest.approx((11.0, 0.0, 2.0))
+
+
+def test_a_single_topic_needs_no_list(run):
+    with (
+        library.open(run, tf_topics="/r2/tf") as frames,
+        open_recording(run, tf_topics="/r2/tf") as recording,
+    ):
+        assert set(frames.buffer.frames()) == {"map", "base_link", "laser"}
+        assert recording.buffer.frames() == frames.buffer.frames()
 
 
 def test_equal_names_of_two_robots_get_their_namespace(run):

@@ -511,7 +511,7 @@ def open_recording(
     robot: Robot | None = None,
     cache: ColumnCache | None = None,
     with_odometry: bool = False,
-    tf_topics: Sequence[str] = (),
+    tf_topics: str | Sequence[str] = (),
 ) -> Recording:
     """Open an MCAP file, a rosbag2 recording, a ROS 1 bag, or a folder or glob of such files.
 
@@ -527,15 +527,16 @@ def open_recording(
         with_odometry: Whether Odometry, PoseStamped and PoseWithCovarianceStamped messages are
             used as transforms, for frames without other transforms. The name of a pose's topic
             is the name of its frame.
-        tf_topics: Topics of transforms to read, such as "/r1/tf", "/r2/tf", each with the static
-            topic of its namespace; empty for all. Frame names that several of these robots use
-            get the namespace as prefix.
+        tf_topics: Topic of transforms to read, or several topics, such as "/r1/tf", "/r2/tf", each
+            with the static topic of its namespace; empty for all. Frame names that several of
+            these robots use get the namespace as prefix.
 
     Raises:
         InputError: If nothing can be read.
         UsageError: If the package for the compression is not installed.
     """
     name = os.fspath(path)
+    topics = (tf_topics,) if isinstance(tf_topics, str) else tuple(tf_topics)
     before: list[tuple[int, int]] | None = None
     try:
         found = find(name)
@@ -544,7 +545,7 @@ def open_recording(
         is_kept = cache is not None and found.kind is not Kind.POSES
         kept = KeptColumns(cache, found) if is_kept and cache is not None else None
         source = Recorded(name, open_found(found))
-        return Recording(source, progress, robot, kept, with_odometry, tf_topics)
+        return Recording(source, progress, robot, kept, with_odometry, topics)
     except OSError as error:
         raise InputError(f"'{name}' cannot be read: {error.strerror or error}") from error
     except (InputError, ValueError, ArithmeticError, LookupError) as error:
