@@ -9,6 +9,7 @@ from tests.doctor.judged import found, ids, turned
 from tests.doctor.robots import NO_TURN, START, Robot, drives, robot, stands
 from tftool.doctor.findings import Severity
 from tftool.doctor.judge import judge
+from tftool.drawing.finding_view import areas
 from tftool.recordings.contract import Publisher, RecordedTopic
 
 
@@ -167,10 +168,41 @@ def test_results_in_an_unknown_frame_are_a_note():
 
 def test_a_recording_without_transforms_and_sensors_is_no_error():
     made = Robot()
-    made.hears("/cmd_vel", "", kind="sensor_msgs/JointState")
+    made.hears("/joint_states", "base", kind="sensor_msgs/JointState")
     assert found(made, "no-transforms").severity is Severity.WARNING
     made.hears("/scan", "laser")
     assert found(made, "no-transforms").severity is Severity.ERROR
+
+
+def test_a_recording_in_which_nothing_names_a_frame_needs_no_transforms():
+    made = Robot()
+    made.hears("/servos", "", kind="sensor_msgs/JointState")
+    finding = found(made, "no-transforms")
+    assert finding.severity is Severity.NOTE
+    assert finding.message == "there are no transforms, and no message header names a frame"
+    assert "fine" not in areas(made.judged())
+    for more, severity in (
+        (RecordedTopic("/boxes", "visualization_msgs/MarkerArray", count=4), Severity.WARNING),
+        (RecordedTopic("/boxes", "my/Box", count=4, definition="{frame_id}"), Severity.WARNING),
+        (RecordedTopic("/tf", "tf2_msgs/TFMessage", transforms=True), Severity.WARNING),
+        (RecordedTopic("/level", "Level", "json", count=4), Severity.NOTE),
+    ):
+        evidence = made.evidence()
+        told = judge(replace(evidence, topics=(*evidence.topics, more))).findings
+        assert [one.severity for one in told if one.id == "no-transforms"] == [severity]
+
+
+@pytest.mark.parametrize(
+    ("encoding", "command"), [("cdr", "ros2 "), ("ros1", "rostopic "), ("json", "")]
+)
+def test_a_command_of_ros_is_only_given_for_recordings_of_ros(encoding, command):
+    made = Robot()
+    made.hears("/scan", "laser")
+    evidence = made.evidence()
+    topics = tuple(replace(one, encoding=encoding) for one in evidence.topics)
+    (finding,) = judge(replace(evidence, topics=topics)).findings
+    assert (f"`{command}" in finding.fixes[0].text) is bool(command)
+    assert ("`" in finding.fixes[0].text) is bool(command)
 
 
 def test_optical_axes_matter_if_data_is_in_the_frame():

@@ -23,7 +23,7 @@ from tftool.doctor.stamp_stream import (
     last_part,
     rate,
 )
-from tftool.doctor.wording import metres, several, span
+from tftool.doctor.wording import is_ros, metres, several, span
 from tftool.geometry.rigid_arrays import rotate, unit
 from tftool.recordings.container_reader import TRANSFORM_TYPES
 from tftool.recordings.contract import Stamps
@@ -668,9 +668,10 @@ _OFTEN = 50
 @check(
     "no-transforms",
     Severity.ERROR,
-    rule="no topic carries a transform. A warning if no message has a position either",
+    rule="no topic carries a transform. A warning if no message has a position either. A note for "
+    "a recording without a topic for transforms, if no message header names a frame",
     headline="there are no transforms{unread}",
-    consequence="nothing can be placed in another frame",
+    consequence="{so}",
     causes=("/tf and /tf_static were not in the recorder's list",),
     because_of=(("anything", "namespaced-topic"),),
 )
@@ -678,21 +679,40 @@ def no_transforms(model: Model, limits: Limits) -> Iterator[Hit]:
     """The recording has no transforms."""
     if not model.tracks and not model.nameless:
         is_needed = any(heard.is_spatial for heard in model.heard)
-        lists = [one for one in model.evidence.topics if one.type in TRANSFORM_TYPES and one.count]
+        lists = [
+            one for one in model.evidence.topics if one.transforms or one.type in TRANSFORM_TYPES
+        ]
         unread = [
             f"{count(one.count, 'message')} on {one.name} in the encoding {one.encoding}"
             for one in lists
-            if not one.transforms
+            if one.count and not one.transforms
         ]
-        fix = Fix("check whether the robot sends transforms: `{publishers} /tf`; if so, record /tf")
+        told, so, severity = "", "nothing can be placed in another frame", None
+        command = ": `{publishers} /tf`" if is_ros(model.evidence) else ""
+        fix = Fix(f"check whether the robot sends transforms{command}; if so, record /tf")
         if unread:
+            told = f" that tftool can read: {several(unread)}"
             fix = Fix("tftool reads tf2_msgs/TFMessage in the encodings cdr, ros1 and json")
+        if not is_needed:
+            severity = Severity.WARNING
+        if model.evidence.recorded and not lists and not _names_frame(model):
+            severity, told = Severity.NOTE, ", and no message header names a frame"
+            so = "none: no message that tftool can read has a place in a frame"
         yield Hit(
-            topics=tuple(one.name for one in model.evidence.topics if one.transforms),
-            severity=None if is_needed else Severity.WARNING,
-            facts={"unread": f" that tftool can read: {several(unread)}" if unread else ""},
+            topics=tuple(one.name for one in lists if one.transforms),
+            severity=severity,
+            facts={"unread": told, "so": so},
             fixes=(fix,),
         )
+
+
+def _names_frame(model: Model) -> bool:
+    """Whether a header names a frame, or messages without a header at their begin may name one."""
+    others = (one for one in model.evidence.topics if one.name not in model.evidence.headers)
+    return any(one.frame for one in model.heard) or any(
+        one.count and ("frame_id" in one.definition or one.type.startswith("visualization_msgs/"))
+        for one in others
+    )
 
 
 @check(

@@ -310,6 +310,12 @@ def is_ros1(evidence: Evidence) -> bool:
     return evidence.kind == "ROS 1 bag" or any(one.encoding == "ros1" for one in evidence.topics)
 
 
+def is_ros(evidence: Evidence) -> bool:
+    """Whether evidence may come from ROS: a topic has one of ROS's encodings, or none is known."""
+    encodings = {one.encoding for one in evidence.topics} - {""}
+    return not encodings or bool(encodings & {"cdr", "ros1"})
+
+
 def ros_words(evidence: Evidence) -> Mapping[str, str]:
     """Return the words of a pose file, of ROS 1 or of ROS 2, by placeholder; ROS 2 if unknown."""
     if evidence.kind.startswith("poses"):

@@ -211,7 +211,8 @@ def _sources(model: Model) -> str:
 def _fine(diagnosis: Diagnosis) -> list[tuple[Area, str]]:
     """Return the areas (groups of checks) without a finding, each with a note, or with "".
 
-    A note says, for example, why the checks of the area were skipped.
+    A note says, for example, why the checks of the area were skipped. Without transforms, only
+    areas with a note are returned.
     """
     wrong = {finding.area for finding in diagnosis.findings if finding.is_shown}
     noted = {finding.id for finding in diagnosis.findings if finding.because_of is None}
@@ -232,7 +233,7 @@ def _fine(diagnosis: Diagnosis) -> list[tuple[Area, str]]:
             told.append((area, _latencies(diagnosis.model, area).strip(" ()")))
         elif area is Area.CLOCKS and (off := _far_off(diagnosis.model)):
             told.append((area, off))
-        else:
+        elif len(diagnosis.model.evidence.transforms):
             told.append((area, ""))
     return told
 
@@ -269,6 +270,8 @@ def summary(diagnosis: Diagnosis) -> str:
     """Return a line with the number of findings and the command that explains more."""
     told = [one for one in diagnosis.findings if one.is_shown]
     quiet = [f for f in diagnosis.findings if f.because_of is None and not f.is_shown]
+    if none := [one for one in quiet if one.id == "no-transforms" and not told]:
+        return f"nothing to examine: {none[0].message}"
     if not told:
         skipped = f", {len(diagnosis.skipped)} skipped" if diagnosis.skipped else ""
         why = " (--verbose says why)" if skipped else ""
