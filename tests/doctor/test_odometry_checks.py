@@ -297,6 +297,36 @@ def test_commands_after_the_last_transform_are_read_unless_all_are_zero(tmp_path
     assert "/cmd_vel goes on for 10.00 s (100 messages)" in stopped.evidence[0]
 
 
+@pytest.mark.parametrize("node", ["/play_1600000001234567890", "/display_1600000001234567890"])
+def test_a_log_of_a_player_shows_that_old_data_was_replayed(tmp_path, node):
+    path = tmp_path / "again.bag"
+    tf, kind = "tf2_msgs/msg/TFMessage", "rosgraph_msgs/msg/Log"
+    made = {name.split("/")[-1]: ROS1.types[name] for name in ROS1.types}
+    with Writer(path) as writer:
+        frames = writer.add_connection("/tf", tf, typestore=ROS1)
+        rosout = writer.add_connection("/rosout", kind, typestore=ROS1)
+        for number in range(100):
+            stamp = 15 * 10**17 + number * 10**8
+            at = ROS1.types["builtin_interfaces/msg/Time"](*divmod(stamp, 10**9))
+            for child in ("base_link", "arm"):
+                pose = made["Transform"](
+                    made["Vector3"](0.01 * number, 0.0, 0.0), made["Quaternion"](0.0, 0.0, 0.0, 1.0)
+                )
+                header = made["Header"](number, at, "odom")
+                message = ROS1.types[tf]([made["TransformStamped"](header, child, pose)])
+                writer.write(frames, stamp + 10**17, ROS1.serialize_ros1(message, tf))
+            if number == 50:
+                header = made["Header"](0, at, "")
+                log = ROS1.types[kind](header, 2, node, "hello", "a.cpp", "main", 1, ["/tf"])
+                writer.write(rosout, stamp + 10**17, ROS1.serialize_ros1(log, kind))
+    with open_recording(path) as recording:
+        evidence = evidence_of(recording)
+    assert evidence.played == ("/rosout" if "/play" in node else "")
+    (shifted,) = [one for one in judge(evidence).findings if one.id == "shifted-clock"]
+    told = "; /rosout names a player: the data was replayed from another recording"
+    assert shifted.evidence[0].endswith(told) is ("/play" in node)
+
+
 @pytest.mark.parametrize(("speed", "severity"), [(0.4, Severity.NOTE), (2.0, Severity.WARNING)])
 def test_a_pose_of_motion_capture_that_is_sent_twice_moves_in_steps(speed, severity):
     made = Robot()

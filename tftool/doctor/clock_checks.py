@@ -21,6 +21,7 @@ check = checks_of(Area.CLOCKS)
 _LOOKS_THE_SAME = Fix(
     f"{COMPARE_CLOCKS.text}; an older recording that is played again looks the same"
 )
+_BESIDE_PLAYER = Fix("for nodes beside the player of the recording: {play_again}")
 _PLAY_AGAIN = Fix("a recording was played beside nodes that run on the present time: {play_again}")
 _BOTH = 0.05
 """Fraction of an edge's samples on another clock above which they come from a second source."""
@@ -194,13 +195,14 @@ def _example(group: "list[Track | Heard]", simulated: bool) -> int:
     "constant, more than 2 s and equal to within 1 s. If the stamps of all streams, three or more, "
     "are before their reception, and the differences agree to within 0.2 s, 0.5 s are enough. If "
     "all streams are ahead of their reception, only the half of the messages that waited least has "
-    "to agree to within 1 s. Not reported if "
-    "some transforms and messages with a position, such as those of a second robot, agree with the "
-    "recorder's clock to within 1 s. A warning if the stamps are after the reception, because a "
-    "recording that is played again cannot have such stamps",
+    "to agree to within 1 s. Not reported if some transforms and messages with a position, such as "
+    "those of a second robot, agree with the recorder's clock to within 1 s. A warning if the "
+    "stamps are after the reception, because a recording that is played again cannot have such "
+    "stamps. The evidence tells if a player such as `ros2 bag play` wrote a log or declared a "
+    "parameter",
     headline="{most} stamps are {by:span} {side} their reception, constant to {spread:span}{told}",
     detail="{streams} of {of} streams; latencies and the cache are judged against the clock of the "
-    "stamps",
+    "stamps{player}",
     consequence="none for lookups within the recording; {live}",
     causes=(
         "the robot's clock was never set: it has no battery and no network",
@@ -216,6 +218,7 @@ def shifted_clock(model: Model, limits: Limits) -> Iterator[Hit]:
     """Most stamps differ from the time of reception by the same constant."""
     if model.shift is None or model.unshifted:
         return  # `clock-offset` tells of the two clocks
+    is_old, played = model.shift.by > model.end - model.start, model.evidence.played
     yield Hit(
         since=model.start,
         count=model.shift.streams,
@@ -228,12 +231,15 @@ def shifted_clock(model: Model, limits: Limits) -> Iterator[Hit]:
             else "",
             "streams": model.shift.streams,
             "of": model.shift.of,
+            "player": f"; {played} names a player: the data was replayed from another recording"
+            if is_old and played
+            else "",
             "most": "most" if _has_unshifted(model, model.shift) else "all",
             "live": "a node on the recorder's computer that looks up its present time gets data of "
             "another time, or none",
         },
         severity=Severity.WARNING if model.shift.by < 0 and not model.was_played else None,
-        fixes=(cure_of_offset(model),),
+        fixes=(_BESIDE_PLAYER if is_old and played else cure_of_offset(model),),
         alone=True,
     )
 
@@ -545,10 +551,10 @@ def _on_both_clocks(model: Model, streams: Sequence[Track | Heard]) -> str:
 
 def cure_of_offset(model: Model) -> Fix:
     """Return the remedy for stamps that differ from the time of reception."""
-    if model.was_played:
-        return _PLAY_AGAIN
     # Data that was recorded before is stamped before its reception, by at least its own length.
     is_old = model.shift is not None and model.shift.by > model.end - model.start
+    if model.was_played or (is_old and model.evidence.played):
+        return _PLAY_AGAIN
     return _LOOKS_THE_SAME if is_old else COMPARE_CLOCKS
 
 

@@ -2,7 +2,7 @@
 
 import re
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tftool.base.errors import DescriptionError, InputError, UsageError, without_frames
-from tftool.base.stamps import Stamp, as_seconds, seconds
+from tftool.base.stamps import SIMULATED_BELOW, Stamp, as_seconds, seconds
 from tftool.buffer.buffer import Buffer
 from tftool.doctor.stamp_stream import last_part
 from tftool.frames.frames import Frames
@@ -67,6 +67,8 @@ class Evidence:
         mounts: Sensors' mounts (static poses) measured from motion; None if not requested.
         commands: For each topic of commands without headers, such as cmd_vel: log times of the
             commands to move, nanoseconds; empty unless all moving transforms end early.
+        played: Topic on which a player such as `ros2 bag play` wrote a log or declared a parameter;
+            empty without one, or if no stamps are long before their reception.
     """
 
     name: str
@@ -90,6 +92,7 @@ class Evidence:
     negative: Mapping[str, tuple[int, int, float]] = field(default_factory=dict)
     mounts: "tuple[MeasuredMount, ...] | None" = None
     commands: Mapping[str, Stamps] = field(default_factory=dict)
+    played: str = ""
 
     @property
     def is_generated(self) -> bool:
@@ -243,6 +246,7 @@ def _evidence_of_source(
         if names:
             states = read_joint_states(source, names).states
             joints = frozenset(name for one in states for name in one.names)
+    headers = source.headers()
     return Evidence(
         joints=joints,
         robot=described.robot,
@@ -252,7 +256,7 @@ def _evidence_of_source(
         name=source.name,
         kind=source.kind,
         transforms=transforms,
-        headers=source.headers(),
+        headers=headers,
         clock=source.clock(),
         topics=source.topics,
         publishers=source.publishers,
@@ -260,7 +264,35 @@ def _evidence_of_source(
         start=source.start,
         end=source.end,
         commands=_commands(source, transforms),
+        played=_player_topic(source, headers.values(), transforms),
     )
+
+
+def _player_topic(source: Recorded, heard: Iterable[Headers], transforms: Transforms) -> str:
+    """Return the first topic that names a player; see the attribute `played` of `Evidence`."""
+    pairs = [(one.stamps, one.log_times) for one in heard]
+    pairs += [(one.stamps, transforms.log_times_of(one)) for one in transforms.edges]
+    is_late = any(
+        len(stamps) and stamps.min() > SIMULATED_BELOW and np.median(logs - stamps) > _LATE
+        for stamps, logs in pairs
+    )
+    topics = [topic.name for topic in source.topics if topic.type in _BY_NODES and topic.count]
+    for message in source.messages(topics) if topics and is_late else ():
+        if _PLAYER_NAME.search(message.payload):
+            return message.sender.topic
+    return ""
+
+
+_LATE = seconds(2)
+"""Median time from stamp to reception from which a recording may have been played again."""
+
+_BY_NODES = frozenset({"rcl_interfaces/Log", "rcl_interfaces/ParameterEvent", "rosgraph_msgs/Log"})
+"""Types of messages with the name of the node that sends them."""
+
+_PLAYER = r"play_\d{15,}|rosbag2_player"
+"""Pattern of the names of the nodes of `rosbag play` and `ros2 bag play`."""
+
+_PLAYER_NAME = re.compile(rb"(?<![\w-])(?:" + _PLAYER.encode() + rb")(?![\w-])")
 
 
 def _commands(source: Recorded, transforms: Transforms) -> dict[str, Stamps]:
@@ -461,7 +493,7 @@ _COPIED = 0.5
 
 def is_player(node: str) -> bool:
     """Whether a node has the name of `rosbag play` or `ros2 bag play`."""
-    return re.fullmatch(r"play_\d{15,}|rosbag2_player", last_part(node)) is not None
+    return re.fullmatch(_PLAYER, last_part(node)) is not None
 
 
 # Evidence of a buffer
