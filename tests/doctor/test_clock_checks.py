@@ -214,7 +214,10 @@ def test_an_imu_on_the_right_clock_is_off_all_others():
     assert [one.id for one in findings] == ["clock-offset", "shifted-clock"]
     assert [one.is_shown for one in findings] == [True, False]
     assert findings[0].topics == ("/imu",)
-    assert "143 hours off" in findings[0].message
+    assert findings[0].message == (
+        "base_link in odom, /scan, /points are 143 hours behind the recorder's clock, with which "
+        "/imu agrees"
+    )
 
 
 def test_a_gps_that_is_late_is_no_clock_beside_which_an_imu_is_ahead():
@@ -507,8 +510,11 @@ def test_a_localiser_on_the_recorders_clock_is_off_the_others_and_no_more(hours)
     ]
     finding = found(made, "clock-offset")
     assert finding.edges == (("map", "odom"),)
-    off = "14.94 s" if hours > 0 else "168 hours"
-    assert finding.message.startswith(f"odom in map is {off}")
+    off = "14.98 s ahead of" if hours > 0 else "168 hours behind"
+    assert finding.message == (
+        f"base_link in odom, /scan, /points are {off} the recorder's clock, with which odom in map "
+        "agrees"
+    )
     assert ("played again" in finding.fixes[0].text) == (hours < -1)
     # No other data shows the two clocks.
     assert ids(made, notes=True) == ["clock-offset"]
@@ -524,7 +530,7 @@ def test_a_localiser_beside_a_recorded_one_is_told_as_two_sources():
     live = [(stamp + seconds(168 * 3600), pose, number) for stamp, pose, number in rows]
     made.records["map", "odom", False] = [*live, *rows[::2]]
     finding = found(made, "clock-offset")
-    assert "odom in map: -168 hours" in finding.evidence[0]
+    assert finding.evidence[0].startswith("odom in map: 0 ms, base_link in odom: 168 hours")
     assert "odom in map is on two clocks: 80 of its samples" in finding.evidence[0]
     # A command that drops the transform would remove the samples of both sources.
     assert not any(fix.command for fix in finding.fixes)

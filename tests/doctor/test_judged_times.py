@@ -521,3 +521,35 @@ def test_a_sensor_whose_messages_all_have_stamp_0_is_reported():
     assert (finding.topics, finding.severity) == (("/imu",), Severity.WARNING)
     made.heard["/imu"] = (kind, [(0, log, "elsewhere") for _, log, _ in rows])
     assert found(made, "zero-stamp").severity is Severity.NOTE
+
+
+def test_the_streams_that_agree_with_the_recorder_are_right_whatever_their_number():
+    made = Robot(log_from=START + 1e6)
+    made.moving("odom", "base_link")
+    made.moving("base_link", "arm", pose=lambda t: (0.1 * t, 0.0, 0.0, *NO_TURN))
+    made.static("base_link", "imu_link")
+    made.hears("/joint", "arm", kind="sensor_msgs/Imu")
+    made.start = START + 1e6
+    made.hears("/imu", "imu_link", 50.0, "sensor_msgs/Imu")
+    finding = found(made, "clock-offset")
+    assert finding.message == (
+        "base_link in odom, arm in base_link, /joint are 11.6 days behind the recorder's clock, "
+        "with which /imu agrees"
+    )
+    assert "/imu: 20 ms, " in finding.evidence[0]
+    assert "that needs a moving transform" in finding.consequence
+
+
+def test_publishers_with_two_clocks_are_compared_with_the_recorders_clock():
+    made = robot(odometry=False, scans=False)
+    for node, ahead in (("/camera", 0.0), ("/filter", 3600.0)):
+        pose = (ahead / 100, 0.0, 0.0, *NO_TURN)
+        for tick in range(400):
+            at = tick * 0.02
+            made.sent("odom", "base_link", at + ahead, pose, latency=0.005 - ahead, node=node)
+    for topic in ("/imu", "/fix", "/points"):
+        made.hears(
+            topic, "laser", 10.0, "sensor_msgs/Imu", begin=3600.0, end=3608.0, latency=-3600.0
+        )
+    evidence = found(made, "publisher-conflict").evidence[0]
+    assert "arriving 5 ms after and 60 minutes before their stamps" in evidence

@@ -440,7 +440,7 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
             shift = model.shift
             told = f": {shift.streams} of {shift.of} streams are not on the recorder's clock"
         sources = _on_both_clocks(model, streams)
-        so = "each lookup at these stamps asks for data that "
+        so = "each lookup at these stamps that needs a moving transform asks for data that "
         so += "has not arrived yet" if ahead > 0 else "the buffer has already dropped"
         if 0 < ahead <= model.settings.cache_time:
             so = f"each lookup at these stamps has to wait {by} longer, or fails"
@@ -456,6 +456,16 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
             )
         elif len(heards) < len(streams) and abs(ahead) > model.settings.cache_time:
             so = "no lookup across the two clocks can succeed"
+        topic, found = several(names), f"{'is' if len(names) == 1 else 'are'} {by} {off}" + told
+        if model.shift is not None and abs(model.shift.by - ahead) < _JITTER:
+            # These streams are right: the others are not on the recorder's clock.
+            agrees = f"{topic} {'agrees' if len(names) == 1 else 'agree'}"
+            topic, verb = _shifted_names(model, model.shift, streams)
+            side = "behind" if model.shift.by > 0 else "ahead of"
+            by = span(abs(model.shift.by))
+            found = f"{verb} {by} {side} the recorder's clock, with which {agrees}"
+            if not told and abs(ahead) > model.settings.cache_time:
+                so = "no lookup across the two clocks that needs a moving transform can succeed"
         yield Hit(
             edges=tuple(one.edge for one in streams if isinstance(one, Track)),
             topics=tuple(dict.fromkeys(heard.topic for heard in heards)),
@@ -463,11 +473,11 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
             since=min(int(one.logs[0]) for one in streams),
             count=sum(len(one.stamps) for one in streams),
             facts={
-                "topic": several(names),
+                "topic": topic,
                 "ahead": ahead,
                 "groups": groups,
                 "sources": sources,
-                "found": f"{'is' if len(names) == 1 else 'are'} {by} {off}" + told,
+                "found": found,
                 "so": so,
             },
             severity=Severity.ERROR
@@ -531,6 +541,24 @@ def _is_unshifted(model: Model, heard: Heard) -> bool:
     is_judged = len(heard.stamps) >= 3 and heard.is_spatial and model.shift is not None
     by = 0 if model.shift is None else model.shift.by
     return is_judged and 2 * abs(heard.median_latency) > abs(by)
+
+
+def _shifted_names(model: Model, shift: Shift, others: Sequence[Track | Heard]) -> tuple[str, str]:
+    """Return the names of the streams with the shift, and "is" or "are".
+
+    Args:
+        model: Model of the evidence.
+        shift: The shift.
+        others: Streams on the recorder's clock.
+    """
+    streams: list[Track | Heard] = [*model.dynamic, *(h for h in model.heard if h.is_spatial)]
+    near = max(_JITTER, abs(shift.by) // 10_000)
+    names = dict.fromkeys(
+        one.name
+        for one in streams
+        if one not in others and len(one.stamps) > 2 and abs(one.median_latency) < near
+    )
+    return several(tuple(names), 3), "is" if len(names) == 1 else "are"
 
 
 def _on_both_clocks(model: Model, streams: Sequence[Track | Heard]) -> str:
@@ -611,7 +639,8 @@ def _is_one_period(stream: "Track | Heard") -> bool:
 def _offsets(model: Model) -> list[str]:
     """Return a line for each group of streams whose latency, rounded to 20 ms, is equal.
 
-    A topic without positions whose latencies differ, as if two computers sent it, is left out.
+    The latencies are those against the recorder's clock. A topic without positions whose latencies
+    differ, as if two computers sent it, is left out.
     """
     grouped: dict[int, list[str]] = defaultdict(list)
     streams: list[Track | Heard] = [*model.dynamic, *model.heard]
@@ -619,7 +648,8 @@ def _offsets(model: Model) -> list[str]:
         near = abs(one.latency - one.median_latency) < max(_JITTER, abs(one.median_latency) // 100)
         has_one_clock = isinstance(one, Track) or one.is_spatial or np.mean(near) > _MOST
         if len(one.stamps) > 2 and has_one_clock:
-            grouped[round(one.median_latency / seconds(0.02))].append(one.name)
+            by = model.shift.by if model.shift is not None and one.families[1] else 0
+            grouped[round((one.median_latency + by) / seconds(0.02))].append(one.name)
     return [
         f"{', '.join(dict.fromkeys(names[:4]))}: {span(step * 20_000_000)}"
         for step, names in sorted(grouped.items())

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from tftool.base.stamps import CACHE_TIME, NANOSECONDS
+from tftool.base.stamps import CACHE_TIME, NANOSECONDS, seconds
 from tftool.doctor.findings import Confidence, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_stream import Mask, Places, Track, last_part
@@ -24,6 +24,9 @@ from tftool.recordings.contract import percentile
 
 MOST_FOLLOWED = 20_000
 """Maximum number of an edge's samples that are followed one by one; these are enough evidence."""
+
+_TWO_CLOCKS = seconds(1)
+"""Difference between the latencies of two publishers above which they have two clocks."""
 
 _RADIAN = 0.5
 """Length in metres that equals a radian, where one number combines a distance and an angle."""
@@ -508,6 +511,12 @@ def _conflict(
     if is_one:
         seen = f", which alternate, both sent by {track.nodes[0]}"
         fix = Fix(f"find out where {track.nodes[0]} gets each of the two values from")
+    told = f"latencies {span(late[0])} and {span(late[1])}"
+    if abs(late[0] - late[1]) > _TWO_CLOCKS:
+        # On two clocks, only the recorder's clock shows which samples are dated wrongly.
+        real = [int(np.median(track.logs[places] - track.stamps[places])) for places in sent]
+        sides = (f"{span(abs(one))} {'after' if one > 0 else 'before'}" for one in real)
+        told = f"arriving {' and '.join(sides)} their stamps"
     still = [
         f"; all poses of {name} are equal"
         for name, places in zip(names, owned, strict=True)
@@ -533,8 +542,7 @@ def _conflict(
             "second": names[1],
             "rates": rates,
             "latencies": late,
-            "told": f"{rates[0]:.3g} and {rates[1]:.3g} Hz, latencies {span(late[0])} and "
-            f"{span(late[1])}{''.join(still)}",
+            "told": f"{rates[0]:.3g} and {rates[1]:.3g} Hz, {told}{''.join(still)}",
             "apart": float(np.median(apart)),
             "turned": float(np.median(turned)),
             "worst": float(np.max(apart)),
