@@ -343,7 +343,7 @@ def test_shorter_times_without_arrivals_are_counted_beside_an_outage():
     for begin, end in ((0.5, 1.0), (3.0, 6.0), (6.5, 7.1)):
         silent(made, begin, end, lost=False)
     # The last odometry before 0.5 s arrives at 0.485 s, and before 6.5 s at 6.485 s.
-    also = "nothing arrived 2 more times, for up to 615 ms (1.13 s in all)"
+    also = "on all 2 streams, nothing arrived 2 more times, for up to 615 ms (1.13 s in all)"
     assert found(made, "outage").evidence[0].endswith(also)
 
 

@@ -262,7 +262,7 @@ def _shorter(worst: _Outage, outages: list[_Outage], limits: Limits) -> str:
         return ""
     total, longest = span(int(steps[short].sum())), span(int(steps[short].max()))
     return (
-        f"; on {len(worst.streams)} streams, nothing arrived {number} more times, for up to "
+        f"; on all {len(worst.streams)} streams, nothing arrived {number} more times, for up to "
         f"{longest} ({total} in all)"
     )
 
