@@ -209,6 +209,37 @@ def test_a_lasting_jump_beside_an_outlier_is_reported_too():
     assert found(made, "teleport").count == 1
 
 
+def test_an_outlier_ends_where_the_pose_comes_back_and_its_last_step_is_no_teleport():
+    def pose(t: float) -> Pose:
+        # The last pose before the jump is off itself, as the first poses after it show.
+        angle = {300: 0.44, 301: 1.2, 302: 0.15, 303: 0.17, 304: 0.17, 305: 0.3}
+        return (0.1 * t, 0.0, 1.7, *turned(angle.get(round(100 * t), 0.44 if t < 3 else 0.4)))
+
+    made = Robot()
+    made.moving("world", "drone", 100.0, pose)
+    finding = found(made, "outlier")
+    assert "1 sample at" in finding.evidence[0]
+    assert finding.message == "drone in world jumps 43.5° away for 10 ms, and back"
+    assert ids(made) == ["outlier"]
+
+
+@pytest.mark.parametrize(
+    ("angle", "hz", "back", "told"),
+    [
+        (0.45, 60.0, 0.0, True),  # 0.45 rad are 25.8°, at 27 rad/s
+        (0.3, 100.0, 0.0, False),  # 17.2°
+        (0.45, 30.0, 0.0, False),  # 13.5 rad/s
+        (0.45, 60.0, 0.2, False),  # it turns back by 0.25 rad only
+    ],
+)
+def test_a_single_sample_that_turns_too_fast_away_and_back_is_an_outlier(angle, hz, back, told):
+    made = Robot()
+    for tick in range(400):
+        turn = angle if tick == 200 else back * (tick > 200)
+        made.sent("world", "drone", tick / hz, (0.001 * tick, 0.0, 1.7, *turned(turn)))
+    assert ids(made) == (["outlier"] if told else [])
+
+
 def test_a_slow_body_that_often_turns_to_the_opposite_side_and_back_has_outliers():
     def pose(t: float) -> Pose:
         return (0.1 * t, 0.0, 1.7, *turned(3.1 if t % 2.0 > 1.7 else 0.05 * t))

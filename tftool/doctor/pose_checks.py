@@ -377,6 +377,8 @@ _STEADY = math.radians(20.0)
     "95 % quantile of all steps. Or the pose jumps by more than {metres:g} m, at more than "
     "{speed:g} m/s and {times:g} times the 95 % quantile of all speeds. At most {samples:g} "
     "samples and {seconds:g} s later, the pose is back: the rest is at most {back:%} of the jump. "
+    "For a single sample, a turn of 20° is enough, at more than 20 rad/s both away and back, and "
+    "{times:g} times the 95 % quantile of all turns. "
     "Such jumps are at most a share of {share:g} of all steps. Turns of 150° or more of a "
     "moving frame that usually turns by less than 20° may be a larger share, and may last "
     "{periods:g} periods. Ten turns of 15° "
@@ -488,6 +490,7 @@ def outliers(track: Track, limits: Limits) -> list[tuple[int, int]]:
     is_far |= (apart > limits["metres"]) & (
         speeds > max(limits["speed"], limits["times"] * percentile(speeds, 95))
     )
+    is_far |= _single_turns(track, turned, limits)
     longest = limits["seconds"] * NANOSECONDS
     if (flips := _half_turns(apart, turned)) is not None:
         is_far = flips
@@ -499,6 +502,31 @@ def outliers(track: Track, limits: Limits) -> list[tuple[int, int]]:
     if flips is None and np.count_nonzero(is_far) > max(2, limits["share"] * len(apart)):
         return []
     return _runs_away(track, apart, turned, is_far, longest, limits)
+
+
+def _single_turns(track: Track, turned: Floats, limits: Limits) -> Mask:
+    """Return a mask of the steps to a single sample that turns too fast, away and back.
+
+    Args:
+        track: The edge.
+        turned: Rotation of each step, radians, shape (n,).
+        limits: Thresholds of `outlier`.
+    """
+    places, steps = track.by_stamp, np.diff(track.sorted_stamps) / NANOSECONDS
+    fast = turned > max(_SINGLE, limits["times"] * percentile(turned, 95))
+    fast &= turned / np.maximum(steps, _SHORT) > _SINGLE_SPEED
+    away = np.flatnonzero(fast[:-1] & fast[1:])
+    rest = track.turned(places[away], places[away + 2])
+    single = np.zeros(len(turned), dtype=np.bool_)
+    single[away[rest <= limits["back"] * turned[away]]] = True
+    return single
+
+
+_SINGLE = math.radians(20.0)
+"""Smallest rotation to a single wrong sample, and back, radians."""
+
+_SINGLE_SPEED = 20.0
+"""Smallest speed of these two rotations, radians per second."""
 
 
 def _flickers(track: Track, turned: Floats) -> Mask | None:
@@ -553,15 +581,21 @@ def _runs_away(
         before = np.full(len(later), places[out])
         # A jump away does not tell how well its publisher measures turns.
         spun = turned[out] > limits["radians"]
-        rest = limits["back"] * turned[out] if spun else math.inf
-        backs = np.flatnonzero(
-            (track.stamps[later] - track.stamps[before] <= longest)
-            & (track.apart(before, later) <= limits["back"] * max(apart[out], limits["metres"]))
-            & (track.turned(before, later) <= rest)
-        )
+        shift = track.apart(before, later) / max(apart[out], limits["metres"])
+        turn = track.turned(before, later) / turned[out] if spun else np.zeros(len(later))
+        rest = np.maximum(shift, turn)
+        in_time = track.stamps[later] - track.stamps[before] <= longest
+        backs = np.flatnonzero(in_time & (rest <= limits["back"]))
         if len(backs):
-            found.append((out + 1, out + 2 + int(backs[0])))
+            # The pose before may be off itself, so a pose that is nearer to it than half of the
+            # jump is right, too.
+            wrong = np.flatnonzero(rest[: backs[0]] > _HALF)
+            found.append((out + 1, out + 2 + int(wrong[-1] + 1 if len(wrong) else 0)))
     return found
+
+
+_HALF = 0.5
+"""Share of a jump that a wrong pose is away, at least."""
 
 
 def _half_turns(apart: Floats, turned: Floats) -> Mask | None:
