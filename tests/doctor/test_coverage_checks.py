@@ -74,6 +74,30 @@ def test_trees_of_one_state_publisher_lack_the_static_transforms_between_them(ah
     assert not (is_cut and fix.command)
 
 
+def test_without_any_part_of_the_robot_all_sensors_lack_their_frames_for_one_reason():
+    made = robot(laser=False)
+    made.hears("/points", "points2", kind="sensor_msgs/PointCloud2")
+    assert ids(made) == ["static-missing"]
+    finding = found(made, "static-missing")
+    assert finding.frames == ("laser", "points2")
+    assert finding.severity is Severity.WARNING
+    assert len([one for one in made.judged().findings if one.because_of == "static-missing"]) == 2
+    made.moving("base_link", "arm")
+    assert found(made, "static-missing").frames == ("laser",)
+    (other,) = [one for one in made.judged().findings if one.frames == ("points2",)]
+    assert other.severity is Severity.ERROR
+
+
+@pytest.mark.parametrize(("child", "told"), [("odom", False), ("base_link", False), ("arm", True)])
+def test_another_name_of_a_frame_is_only_looked_for_if_tf_has_a_frame_for_it(child, told):
+    made = Robot()
+    made.moving("map", child)
+    made.hears("/points", "points2", kind="sensor_msgs/PointCloud2")
+    (fix,) = found(made, "unknown-frame").fixes
+    assert fix.text.startswith("find the node that should publish the frame")
+    assert ("the name that the frame has in tf" in fix.text) is told
+
+
 def test_joint_states_without_transforms_of_joints_need_robot_state_publisher():
     made = robot(laser=False)
     made.hears("/joint_states", "", kind="sensor_msgs/JointState")

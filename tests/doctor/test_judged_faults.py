@@ -517,3 +517,14 @@ def test_single_transforms_of_a_frame_that_tf_lacks_are_examined():
     made.moving("world", "ball", end=3.0, topic="/vicon/ball")
     judged = with_type(made, "/vicon/ball")
     assert "ball" in judged.model.frames
+
+
+def test_names_are_a_note_if_no_listener_of_tf_receives_the_transforms():
+    made = Robot()
+    made.moving("world", "vicon/auk", topic="/vicon/auk")
+    made.hears("/imu", "auk", kind="sensor_msgs/Imu")
+    made.hears("/range", "nose", kind="sensor_msgs/Range")
+    for kind, shown in (("tf2_msgs/TFMessage", True), ("geometry_msgs/TransformStamped", False)):
+        told = {one.id: one for one in with_type(made, "/vicon/auk", kind).findings}
+        for name in ("namespace-twins", "unknown-frame"):
+            assert (told[name].severity is Severity.NOTE) is not shown

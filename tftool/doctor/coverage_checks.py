@@ -13,15 +13,17 @@ from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Fix, Hit, Severity
 from tftool.doctor.gap_checks import gap, holes
 from tftool.doctor.missing_joins import (
+    base_of,
     has_base,
     is_mount,
+    is_world,
     own_base,
     start_of_publisher,
     static_publisher,
 )
 from tftool.doctor.model import WARM_UP, Limits, Model
 from tftool.doctor.stamp_checks import stands_still
-from tftool.doctor.stamp_stream import NEVER, PLACED, Heard, Track, last_part
+from tftool.doctor.stamp_stream import BASES, NEVER, PLACED, Heard, Track, last_part
 from tftool.doctor.wording import ALIKE, arrival, is_ros1, least_rate, rounded_up, several, span
 from tftool.recordings.contract import Stamps, percentile
 
@@ -33,7 +35,8 @@ check = checks_of(Area.COVERAGE)
     Severity.ERROR,
     rule="no topic for static transforms has a message, and messages are in frames that no "
     "transform contains. These frames are mounts, judged by the description or by a name such as "
-    "laser_link. A warning if the recording has no such topic, if none of these messages is a "
+    "laser_link; if tf has no part of the robot below its base, the frames of all sensors count. "
+    "A warning if the recording has no such topic, if none of these messages is a "
     "scan, a point cloud or a range, or if tf has no base frame. Not reported if the "
     "recording has no such topic and constants other than odometry are sent on /tf, as in early "
     "ROS 1",
@@ -54,16 +57,21 @@ def static_missing(model: Model, limits: Limits) -> Iterator[Hit]:
     """The recording has no static transforms, and frames of sensors are not in tf."""
     if not model.lacks_statics:
         return
-    unknown = [
-        heard
+    every = {
+        heard: heard.frame.removeprefix("/")
         for heard in model.heard
-        if heard.is_spatial
-        and heard.frame
-        and heard.frame.removeprefix("/") not in model.frames
-        and is_mount(model, heard.frame.removeprefix("/"))
-    ]
+        if heard.is_spatial and heard.frame.removeprefix("/") not in model.frames | {""}
+    }
+    unknown = [heard for heard, frame in every.items() if is_mount(model, frame)]
     if not unknown:
         return
+    if not _has_parts(model):
+        # All parts of the robot lack for one reason, also those with unusual names.
+        unknown = [
+            heard
+            for heard, frame in every.items()
+            if heard in unknown or (heard.type.startswith("sensor_msgs/") and not is_world(frame))
+        ]
     static = [topic for topic in model.evidence.topics if topic.static]
     names = sorted({heard.frame.removeprefix("/") for heard in unknown})
     why = "the recording has no /tf_static"
@@ -101,6 +109,13 @@ def static_missing(model: Model, limits: Limits) -> Iterator[Hit]:
         fixes=tuple(fixes),
         alone=True,
     )
+
+
+def _has_parts(model: Model) -> bool:
+    """Whether tf has frames other than those of the base below a robot's base frame."""
+    bases = {base_of(tree) for tree in model.trees} - {""}
+    below = frozenset[str]().union(*(model.below(base) for base in bases))
+    return any(last_part(frame) not in BASES for frame in below) or not bases
 
 
 @check(

@@ -15,7 +15,7 @@ from tftool.doctor.missing_joins import (
 )
 from tftool.doctor.model import LAP, Limits, Model
 from tftool.doctor.name_checks import distance
-from tftool.doctor.stamp_stream import PLACED, Heard, last_part
+from tftool.doctor.stamp_stream import BASES, PLACED, Heard, last_part
 from tftool.doctor.wording import is_ros1, several, span
 
 check = checks_of(Area.NAMES)
@@ -29,7 +29,7 @@ check = checks_of(Area.NAMES)
     "maps have to place, or if tf has no base frame. A note if none of the messages comes "
     "from a sensor, or if only the frame of a localiser or of the earth is unknown. A note "
     "also if the messages are raw input of a localiser: tf has no robot, and their node also "
-    "sends other messages in the frame",
+    "sends other messages in the frame; and if all transforms are single (TransformStamped)",
     headline="no transform names {named}",
     detail="{frame}: {says}{hint}",
     consequence="none of these messages can be placed anywhere",
@@ -69,7 +69,7 @@ def unknown_frame(model: Model, limits: Limits) -> Iterator[Hit]:
         told = {heard.topic for heard in heards}
         first = min(int(heard.logs[0]) for heard in heards)
         fixes = _renames(model, name, alike, heards)
-        raw, node = _raw_input(model, name) if fixes[0] == _FIND_IT else ([], "")
+        raw, node = _raw_input(model, name) if fixes[0] in _FIND_IT else ([], "")
         if raw:
             told |= {heard.topic for heard in raw}
             fixes = (Fix(f"{node} sends them: check whether its localiser ran and was recorded"),)
@@ -96,7 +96,11 @@ def unknown_frame(model: Model, limits: Limits) -> Iterator[Hit]:
         )
 
 
-_FIND_IT = Fix("find the node that should publish the frame, or the name that the frame has in tf")
+_FIND_IT = (
+    Fix("find the node that should publish the frame"),
+    Fix("find the node that should publish the frame, or the name that the frame has in tf"),
+)
+"""Remedies for a frame without any evidence; the second, if tf has frames that may be this one."""
 
 
 def _raw_input(model: Model, name: str) -> tuple[list[Heard], str]:
@@ -124,6 +128,8 @@ def _severity(
     model: Model, name: str, heards: Iterable[Heard], fixes: Sequence[Fix]
 ) -> Severity | None:
     """Return the severity of a finding about a frame that tf lacks; None for the default, ERROR."""
+    if not model.has_lists:
+        return Severity.NOTE
     if any(last_part(heard.type) in PLACED for heard in heards):
         return None if has_base(model) else Severity.WARNING
     # A recording for a localiser has goals and reference poses in its map.
@@ -206,7 +212,8 @@ def _renames(model: Model, name: str, alike: list[str], heards: list[Heard]) -> 
         # Evidence for the frame itself comes before similar names.
         fixes = [join.fix, *fixes] if join.why else [*fixes, join.fix]
     if not fixes:
-        fixes = [_FIND_IT]
+        parts = [one for one in model.frames if not is_world(one) and last_part(one) not in BASES]
+        fixes = [_FIND_IT[bool(parts)]]
     if name.startswith("/"):
         fixes.append(Fix(f'and set frame_id to "{name[1:]}": no frame of tf2 begins with a slash'))
     return tuple(fixes)

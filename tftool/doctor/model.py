@@ -225,6 +225,13 @@ class Model:
         return len({one.node for one in self.evidence.transforms.publishers if one.node}) > 1
 
     @cached_property
+    def has_lists(self) -> bool:
+        """Whether some transforms are not single (TransformStamped), so listeners receive them."""
+        kinds = {topic.name: last_part(topic.type) for topic in self.evidence.topics}
+        topics = {topic for track in self.tracks for topic in track.topics}
+        return any(kinds.get(topic) != "TransformStamped" for topic in topics)
+
+    @cached_property
     def words(self) -> Mapping[str, str]:
         """Mapping from placeholders to commands and settings of the recording's ROS version."""
         return ros_words(self.evidence)

@@ -194,7 +194,8 @@ def _shared(one: str, other: str) -> int:
 @check(
     "namespace-twins",
     Severity.WARNING,
-    rule="a frame name exists with and without a prefix, in different trees",
+    rule="a frame name exists with and without a prefix, in different trees. A note if all "
+    "transforms are single (TransformStamped), which no listener of tf receives",
     headline="{first} and {bare} look like one frame: some names have the prefix {prefix}",
     detail="{twins}",
     consequence="{so}",
@@ -245,6 +246,7 @@ def namespace_twins(model: Model, limits: Limits) -> Iterator[Hit]:
                 "bare": twins[0][1],
                 "so": so,
             },
+            severity=None if model.has_lists else Severity.NOTE,
             alone=True,
         )
 
