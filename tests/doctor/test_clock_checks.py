@@ -1,6 +1,7 @@
 """Tests of the checks of clocks and stamps, each on a small robot."""
 
 import io
+from dataclasses import replace
 
 import pytest
 from rich.console import Console
@@ -10,9 +11,11 @@ from tests.doctor.robots import LASTS, START, Robot, drives, robot, stands
 from tftool.base.stamps import seconds
 from tftool.doctor.explanation import traced
 from tftool.doctor.findings import Severity
+from tftool.doctor.judge import judge
 from tftool.doctor.lookup_reasons import Cause
 from tftool.doctor.trace import Question
 from tftool.drawing import finding_view
+from tftool.recordings.contract import Publisher
 
 
 def test_two_clocks_name_the_edges_of_the_fewer():
@@ -188,6 +191,39 @@ def test_a_recording_that_is_shifted_as_a_whole_is_one_finding(hours):
     # The waits are computed on the shifted clock.
     made.hears("/cloud", "laser", 5.0, "sensor_msgs/PointCloud2", latency=-0.08)
     assert sorted(ids(made)) == ["clock-offset", *["shifted-clock"] * is_ahead]
+
+
+@pytest.mark.parametrize(
+    ("nodes", "ros", "is_shown"),
+    [
+        (("/driver", "/laser"), "ROS 1 bag", True),
+        (("/driver", "/laser"), "rosbag2", False),
+        (("/driver", ""), "ROS 1 bag", False),
+        (("/driver", "/play_1649593754885150512"), "ROS 1 bag", False),
+        (("/driver", "/my_player"), "ROS 1 bag", False),
+    ],
+)
+def test_a_robot_of_ros_1_whose_nodes_are_known_was_not_played_again(nodes, ros, is_shown):
+    made = shifted(1.0)
+    made.kind = ros
+    evidence = made.evidence()
+    publishers = tuple(
+        Publisher(topic, node) for topic, node in zip(("/tf", "/scan"), nodes, strict=True)
+    )
+    transforms = replace(evidence.transforms, publishers=(publishers[0],) * 2)
+    told = judge(replace(evidence, transforms=transforms, publishers=publishers)).findings
+    (shift,) = [one for one in told if one.id == "shifted-clock"]
+    assert (shift.severity is Severity.WARNING) is is_shown
+
+
+def test_a_stream_that_differs_by_more_than_the_spread_is_named_beside_a_shift():
+    made = Robot(log_from=START - 30.0)
+    made.moving("odom", "base_link")
+    made.hears("/scan", "base_link")
+    made.moving("map", "odom", latency=-0.25)
+    finding = found(made, "shifted-clock")
+    assert finding.message.startswith("most stamps are 30.00 s after their reception")
+    assert finding.evidence[0].startswith("2 of 3 streams, and odom in map 255 ms more; ")
 
 
 @pytest.mark.parametrize(("spread", "told"), [(0.05, "shifted-clock"), (0.3, "stale-stamp")])

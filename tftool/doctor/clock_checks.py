@@ -13,7 +13,7 @@ from tftool.doctor.missing_joins import own_trees
 from tftool.doctor.model import SHIFT, Limits, Model, Shift
 from tftool.doctor.stamp_checks import COMPARE_CLOCKS
 from tftool.doctor.stamp_stream import BASES, JOINT_STATES, Heard, Track, last_part
-from tftool.doctor.wording import several, span
+from tftool.doctor.wording import is_ros1, several, span
 from tftool.recordings.contract import percentile
 
 check = checks_of(Area.CLOCKS)
@@ -25,6 +25,9 @@ _BESIDE_PLAYER = Fix("for nodes beside the player of the recording: {play_again}
 _PLAY_AGAIN = Fix("a recording was played beside nodes that run on the present time: {play_again}")
 _BOTH = 0.05
 """Fraction of an edge's samples on another clock above which they come from a second source."""
+
+_NEAR = seconds(0.1)
+"""Maximum difference from the shift of a clock, nanoseconds, that is a usual delay."""
 
 _JITTER = seconds(1)
 """Maximum difference of a message's latency from the median latency of its clock, nanoseconds."""
@@ -198,11 +201,12 @@ def _example(group: "list[Track | Heard]", simulated: bool) -> int:
     "to agree to within 1 s. Not reported if some transforms and messages with a position, such as "
     "those of a second robot, agree with the recorder's clock to within 1 s. A warning if the "
     "stamps are after the reception, because a recording that is played again cannot have such "
-    "stamps. The evidence tells if a player such as `ros2 bag play` wrote a log or declared a "
-    "parameter",
+    "stamps. A warning also in ROS 1 if all streams have the shift, and no publisher has the name "
+    "of a player. The evidence tells if a player such as `ros2 bag play` wrote a log or declared a "
+    "parameter, and which streams differ by more than the spread and 0.1 s",
     headline="{most} stamps are {by:span} {side} their reception, constant to {spread:span}{told}",
-    detail="{streams} of {of} streams; latencies and the cache are judged against the clock of the "
-    "stamps{player}",
+    detail="{streams} of {of} streams{others}; latencies and the cache are judged against the "
+    "clock of the stamps{player}",
     consequence="none for lookups within the recording; {live}",
     causes=(
         "the robot's clock was never set: it has no battery and no network",
@@ -219,6 +223,11 @@ def shifted_clock(model: Model, limits: Limits) -> Iterator[Hit]:
     if model.shift is None or model.unshifted:
         return  # `clock-offset` tells of the two clocks
     is_old, played = model.shift.by > model.end - model.start, model.evidence.played
+    alike, others = _shifted_streams(model, model.shift)
+    is_whole = model.shift.streams == model.shift.of
+    nodes = [one.node for one in model.evidence.publishers]
+    is_live = all(node and "play" not in node.lower() for node in nodes) and is_ros1(model.evidence)
+    is_shown = model.shift.by < 0 or (is_live and is_whole and not played)
     yield Hit(
         since=model.start,
         count=model.shift.streams,
@@ -229,19 +238,41 @@ def shifted_clock(model: Model, limits: Limits) -> Iterator[Hit]:
             "told": " in the half of the messages that waited least"
             if model.shift.has_bursts
             else "",
-            "streams": model.shift.streams,
-            "of": model.shift.of,
+            "streams": alike,
+            "of": alike + len(others),
+            "others": f", and {several(others)}" if others else "",
             "player": f"; {played} names a player: the data was replayed from another recording"
             if is_old and played
             else "",
-            "most": "most" if _has_unshifted(model, model.shift) else "all",
+            "most": "most" if others or _has_unshifted(model, model.shift) else "all",
             "live": "a node on the recorder's computer that looks up its present time gets data of "
             "another time, or none",
         },
-        severity=Severity.WARNING if model.shift.by < 0 and not model.was_played else None,
+        severity=Severity.WARNING if is_shown and not model.was_played else None,
         fixes=(_BESIDE_PLAYER if is_old and played else cure_of_offset(model),),
         alone=True,
     )
+
+
+def _shifted_streams(model: Model, shift: Shift) -> tuple[int, list[str]]:
+    """Return the number of streams with the shift, and a clause about each other stream.
+
+    Constant transforms that ROS 1 dates ahead on purpose are left out.
+    """
+    alike, others = 0, []
+    streams: list[Track | Heard] = [*model.dynamic, *(h for h in model.heard if h.is_spatial)]
+    for one in streams:
+        late = one.median_latency
+        is_constant = isinstance(one, Track) and not one.moves and -CONSTANTS_AHEAD <= late < 0
+        if len(one.stamps) < 3 or sum(one.families) != one.families[1] or not one.families[1]:
+            continue
+        # Compared with days, seconds are network delay.
+        if abs(late) <= max(shift.spread, _NEAR, abs(shift.by) // 10_000):
+            alike += 1
+        elif not is_constant:
+            more = "more" if (late > 0) == (shift.by > 0) else "less"
+            others.append(f"{one.name} {span(abs(late))} {more}")
+    return alike, others
 
 
 def _has_unshifted(model: Model, shift: Shift) -> bool:
