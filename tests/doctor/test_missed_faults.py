@@ -53,6 +53,15 @@ def test_samples_that_are_missing_one_by_one_are_counted(speed, severity):
     assert finding.message.endswith(": 10.6 % of its samples are missing, up to 3 in a row")
 
 
+def test_the_share_of_missing_samples_counts_the_first_sample():
+    made = Robot()
+    for tick in range(120):
+        if tick % 5 or not tick:
+            made.sent("imu", "sonar", 0.2 * tick, (0.0, 0.0, 0.0, *turned(0.6 * tick)))
+    # 23 of 120 are 19.17 %.
+    assert ": 19.2 % of its samples are missing" in found(made, "gap").message
+
+
 def test_a_robot_far_from_the_origin_of_odom_does_not_move_when_odom_turns_about_it():
     made = Robot()
     made.moving("odom", "base_link", 50.0, lambda t: (100.0, 0.0, 0.0, *NO_TURN), end=40.0)
@@ -82,6 +91,18 @@ def test_other_messages_that_go_on_after_all_transforms_are_counted():
     told = found(made, "edge-stopped")
     assert told.severity is Severity.WARNING
     assert "; /points goes on for 3.93 s (40 messages)" in told.evidence[0]
+
+
+@pytest.mark.parametrize("ends", [1.9, 8.0])
+def test_commands_that_end_with_all_transforms_show_that_the_robot_stopped(ends):
+    made = Robot()
+    made.moving("odom", "base_link", end=2.0)
+    made.hears("/imu", "imu", 50.0, "sensor_msgs/Imu", end=60.0)
+    made.commands["/cmd_vel"] = [made.log(0.1 * tick) for tick in range(round(10 * ends) + 1)]
+    finding = found(made, "edge-stopped")
+    is_robot = ends < 2.0
+    assert finding.evidence[0].endswith("; /cmd_vel ends at the same time") is is_robot
+    assert ("its connection" in finding.fixes[0].text) is is_robot
 
 
 @pytest.mark.parametrize(

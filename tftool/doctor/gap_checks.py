@@ -356,7 +356,7 @@ def _loss(track: Track, steps: Stamps, limits: Limits) -> str:
     whole = np.rint(periods)
     lost = whole[(whole > 1) & (whole <= limits["few"])]
     missing = int((lost - 1).sum())
-    share = missing / (missing + len(steps))
+    share = missing / (missing + len(steps) + 1)
     is_exact = float(np.mean(np.abs(periods - whole) < _EXACT)) > 1.0 - _EXACT
     if not is_exact or missing < limits["few"] or share < limits["share"]:
         return ""

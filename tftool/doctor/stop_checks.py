@@ -4,14 +4,14 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from tftool.base.stamps import NANOSECONDS
+from tftool.base.stamps import NANOSECONDS, seconds
 from tftool.doctor.check import checks_of, hit_of
 from tftool.doctor.evidence import is_player
 from tftool.doctor.findings import STOPPED_PERIODS, Area, Fix, Hit, Severity
 from tftool.doctor.gap_checks import REPORTS, is_detection, needed_in
 from tftool.doctor.model import LAP, Limits, Model
 from tftool.doctor.stamp_stream import BASES, NEVER, Heard, Track, last_part
-from tftool.doctor.wording import span
+from tftool.doctor.wording import several, span
 from tftool.recordings.contract import Stamps
 
 check = checks_of(Area.COVERAGE)
@@ -91,6 +91,13 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
         if is_played:
             cure = "a player published it: check whether the played recording ends there"
         others_go_on = any(ends[id(other)] - last > least for other in model.dynamic)
+        together = [] if source or others_go_on else _ended_with(model, alive, track, limits)
+        ended_too = f"{several(together)} {'ends' if len(together) == 1 else 'end'}"
+        if together and not is_played:
+            cure = (
+                f"{ended_too}, too: look at the robot at this time, and at its connection to the "
+                "recorder"
+            )
         heard = {one.topic: one.logs[one.logs < stop] for one in alive if isinstance(one, Heard)}
         heard = {topic: times for topic, times in heard.items() if _keeps_its_rate(times, last)}
         if driven:
@@ -120,7 +127,9 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
                 "last": ended,
                 "before": before,
                 "period": track.period,
-                "beside": driven or ("" if others_go_on else _going_on(heard, last, least, limits)),
+                "beside": driven
+                or ("" if others_go_on else _going_on(heard, last, least, limits))
+                + (f"; {ended_too} at the same time" if together else ""),
                 "below": sorted(model.below(track.child)),
             },
             since=last,
@@ -146,6 +155,31 @@ def _going_on(streams: Mapping[str, Stamps], last: int, least: float, limits: Li
         if len(later) >= limits["commands"] and later[-1] - last > least:
             told += f"; {topic} goes on for {span(int(later[-1]) - last)} ({len(later):,} messages)"
     return told
+
+
+def _ended_with(
+    model: Model, alive: "list[Track | Heard]", track: Track, limits: Limits
+) -> list[str]:
+    """Return the topics that end at the same moment as an edge.
+
+    Args:
+        model: Model of the evidence.
+        alive: The moving edges, and the topics with headers that the robot itself sends.
+        track: The edge.
+        limits: Thresholds of `edge-stopped`.
+    """
+    times = {one.topic: one.logs for one in alive if isinstance(one, Heard)}
+    times |= model.evidence.commands
+    near = track.period + _AT_THE_SAME_TIME
+    return [
+        topic
+        for topic, logs in times.items()
+        if len(logs) >= limits["commands"] and abs(int(logs[-1] - track.logs[-1])) <= near
+    ]
+
+
+_AT_THE_SAME_TIME = seconds(0.1)
+"""Maximum time between the ends of two streams that end at the same moment, nanoseconds."""
 
 
 def _keeps_its_rate(times: Stamps, last: int) -> bool:
