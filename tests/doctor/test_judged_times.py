@@ -396,6 +396,33 @@ def test_steps_of_a_localiser_are_measured_where_the_robot_is_when_they_arrive()
         assert finding.count == 3
 
 
+@pytest.mark.parametrize(
+    ("at", "length", "pause", "asked", "told"),
+    [
+        (12.0, 2.5, 0.1, -1.0, True),
+        (8.0, 2.5, 0.1, -1.0, False),  # too soon after the start
+        (12.0, 1.9, 0.1, -1.0, False),
+        (12.0, 2.5, 1.0, -1.0, False),  # after a gap
+        (12.0, 2.5, 0.1, 11.0, False),  # a user sets the pose
+        (12.0, 2.5, 0.1, 2.0, True),
+    ],
+)
+def test_one_long_step_of_a_steady_localiser_is_a_teleport(at, length, pause, asked, told):
+    made = robot(odometry=False)
+    made.moving("odom", "base_link", end=20.0)
+    for tick in range(200):
+        x = length if 0.1 * tick >= at else 0.2 * ((tick // 30 + 1) % 2)
+        if not at - pause + 0.05 < 0.1 * tick < at - 0.05:
+            made.sent("map", "odom", 0.1 * tick, (x, 0.0, 0.0, *NO_TURN))
+    if asked > 0.0:
+        kind = "geometry_msgs/PoseWithCovarianceStamped"
+        made.hears("/initialpose", "map", 1.0, kind, begin=asked, end=asked + 1.0)
+    assert ("teleport" in ids(made)) is told
+    if told:
+        finding = found(made, "teleport")
+        assert finding.message == "odom in map jumps 2.50 m, after 11.90 s without a step of 0.5 m"
+
+
 def test_a_change_between_two_clocks_is_no_step_of_a_localiser():
     made = robot()
     for tick in range(20):

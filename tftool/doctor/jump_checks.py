@@ -29,7 +29,9 @@ check = checks_of(Area.VALUES)
     "samples or more of one publisher. A note for a part of a robot if no sensor message is in its "
     "frame, and for one of three or more objects of one publisher that come and go. A localiser is "
     "reported for {corrections:g} steps or more that move the robot by {corrected:g} m, not "
-    "counting the step to an initial pose. An object that a camera detects is reported for "
+    "counting the step to an initial pose. One such step of {once:g} m, {steady:g} s or more after "
+    "the first sample, is enough, unless a gap or a message with an initial pose comes before it. "
+    "An object that a camera detects is reported for "
     "{corrections:g} steps or more of {detected:g} m and 2 m/s within 1 s. Not reported in a world "
     "frame for a step less than 1 s after a gap of 0.2 s and 8 periods or more, if the "
     "speed from the last pose before the gap is below {speed:g} m/s. If the turn is a jump too, "
@@ -60,6 +62,8 @@ check = checks_of(Area.VALUES)
         "samples": 10,
         "corrections": 3,
         "corrected": 0.5,
+        "once": 2.0,
+        "steady": 10.0,
         "detected": 1.0,
     },
     why="steady motion has a usual speed, which a jump exceeds. More jumps than the rule allows "
@@ -263,14 +267,49 @@ def _corrections(model: Model, track: Track, limits: Limits) -> Hit | None:
     )
     moved = np.linalg.norm(after - before, axis=1)
     steps = np.flatnonzero((moved > limits["corrected"]) & is_step)
+    also, after = "; the localiser may be lost", f", measured at {shown[1]}"
+    if len(steps) == 1 and _is_lonely(model, track, places, moved, int(steps[0]), limits):
+        steady = span(int(track.stamps[places[steps[0]]] - track.stamps[places[0]]))
+        words = f"after {steady} without a step of {limits['corrected']:g} m", after, ""
+        return _repeated_jumps(model, track, places, (steps, moved), words, shown)
     if len(steps) and moved[steps[0]] > 0.999 * moved.max():
         steps = steps[1:]
     if len(steps) < limits["corrections"]:
         return None
     how = f"{limits['corrected']:g} m: its localiser corrects it again and again"
-    also = "; the localiser may be lost"
-    words = how, f", measured at {shown[1]}", also
-    return _repeated_jumps(model, track, places, (steps, moved), words, shown)
+    return _repeated_jumps(model, track, places, (steps, moved), (how, after, also), shown)
+
+
+def _is_lonely(
+    model: Model, track: Track, places: Places, moved: Floats, step: int, limits: Limits
+) -> bool:
+    """Whether the only large step of a localiser is a jump, and no initial pose and no gap.
+
+    Args:
+        model: Model of the evidence.
+        track: The edge from map to odometry.
+        places: Rows of its samples, sorted by stamp, shape (n + 1,).
+        moved: Distance by which each step moves the robot, metres, shape (n,).
+        step: Index of the step.
+        limits: Thresholds of `teleport`.
+    """
+    stamps = track.stamps[places]
+    log = int(track.logs[places[step + 1]])
+    asked = [
+        heard.logs
+        for heard in model.heard
+        if last_part(heard.topic).startswith("initial") and "Pose" in heard.type
+    ]
+    return bool(
+        moved[step] >= limits["once"]
+        and stamps[step] - stamps[0] >= limits["steady"] * NANOSECONDS
+        and stamps[step + 1] - stamps[step] <= 2 * track.period
+        and not any(((logs <= log) & (logs > log - _ASKED)).any() for logs in asked)
+    )
+
+
+_ASKED = seconds(5)
+"""Time, nanoseconds, within which a localiser takes over an initial pose."""
 
 
 def _poor_detections(model: Model, track: Track, limits: Limits) -> Hit | None:
@@ -313,6 +352,8 @@ def _repeated_jumps(
     worst = int(steps[moved[steps].argmax()])
     far = f"by up to {metres(float(moved[worst]))}"
     how = f", {len(steps)} times by more than {words[0]}"
+    if len(steps) == 1:
+        far, how = metres(float(moved[worst])), f", {words[0]}"
     return hit_of(
         track,
         {
