@@ -108,6 +108,35 @@ def test_equal_transforms_of_two_publishers_are_a_note_that_names_the_descriptio
     )
     (told,) = [one for one in judge(evidence).findings if one.id == "sent-twice"]
     assert "topic info --verbose /robot_description" in told.fixes[0].text
+    assert told.severity is Severity.NOTE
+
+
+@pytest.mark.parametrize("copies", [1, 2])
+def test_transforms_statics_and_descriptions_that_are_all_sent_twice_are_a_warning(copies):
+    made = robot()
+    for _ in range(copies):
+        made.static("base_link", "camera")
+    for tick in range(80):
+        for copy in range(2):
+            pose = (0.0, 0.2, 0.0, *turned(0.1 * tick, 1))
+            made.sent("base_link", "wheel", 0.1 * tick, pose, latency=0.004 + 0.0001 * copy)
+    evidence = made.evidence()
+    described = RecordedTopic("/robot_description", "std_msgs/String", encoding="cdr", count=2)
+    evidence = replace(evidence, topics=(*evidence.topics, described))
+    (told,) = [one for one in judge(evidence).findings if one.id == "sent-twice"]
+    assert told.severity is (Severity.WARNING if copies == 2 else Severity.NOTE)
+    assert ("/robot_description and statics are sent twice" in told.evidence[0]) is (copies == 2)
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.02e-3, 0.1e-3, 0.15e-3, 0.3e-3])
+def test_a_loop_that_repeats_its_newest_pose_until_the_next_one_sends_nothing_twice(noise):
+    made = robot(scans=False)
+    for tick in range(200):
+        at = 0.2 * (tick // 10)
+        pose = (0.01 * (tick // 10), 0.0, 0.0, *NO_TURN)
+        late = 0.02 * (tick % 10) + noise * math.sin(7.0 * tick)
+        made.sent("map", "odom", at + 0.2, pose, latency=late - 0.2)
+    assert "sent-twice" not in ids(made, notes=True)
 
 
 @pytest.mark.parametrize(("speed", "told"), [(0.5, ["rep105-shape"]), (0.001, [])])

@@ -283,13 +283,15 @@ _SPIKE = 0.01
     Severity.WARNING,
     rule="a sensor or odometry sends {samples:g} messages or more in one frame, and {share:g} "
     "times as many messages as different stamps, or more. Or a transform is sent three times "
-    "or more at once, with one stamp and value. A note for a moving transform that is sent "
-    "twice, and for messages other than laser scans, because their stamps may be those of a "
-    "simulator's step or of a slower source",
+    "or more at once, with one stamp and value: the copies of a stamp arrive within {spread:g} of "
+    "the step of the stamps (median). A note for a moving transform that is sent "
+    "twice, unless the robot's description and statics are sent twice too, and for messages other "
+    "than laser scans, because their stamps may be those of a simulator's step or of a slower "
+    "source",
     headline="{where} {concerned:sends|send} each message several times",
-    detail="{topic}: {count} messages have {different} different stamps",
+    detail="{topic}: {count} messages have {different} different stamps{also}",
     consequence="programs that use the topic process each message several times",
-    limits={"share": 1.8, "samples": 20},
+    limits={"share": 1.8, "samples": 20, "spread": 0.2},
     because_of=(
         ("anything", "time-jump-back"),
         ("stream", "frozen-stamp zero-stamp repeated-stamp"),
@@ -307,7 +309,7 @@ def sent_twice(model: Model, limits: Limits) -> Iterator[Hit]:
         if len(stamps) >= limits["share"] * different:
             yield hit_of(
                 heard,
-                {"count": len(stamps), "different": different},
+                {"count": len(stamps), "different": different, "also": ""},
                 severity=None if "LaserScan" in heard.type else Severity.NOTE,
                 fixes=(Fix(f"count its publishers: `{{publishers}} {heard.topic}`"),),
             )
@@ -320,25 +322,32 @@ def sent_twice(model: Model, limits: Limits) -> Iterator[Hit]:
         again = np.flatnonzero(np.diff(stamps) == 0)
         some, others = track.by_stamp[again], track.by_stamp[again + 1]
         same = (track.apart(some, others) < 1e-6) & (track.turned(some, others) < 1e-4)
-        waits = np.abs(track.logs[others] - track.logs[some])
-        # One node that sends a sample again does so a period later.
-        if not len(again) or same.mean() < 0.95 or np.median(waits) > 0.1 * track.period:
+        logs, firsts = track.logs[track.by_stamp], np.append(0, np.flatnonzero(np.diff(stamps)) + 1)
+        spans = np.maximum.reduceat(logs, firsts) - np.minimum.reduceat(logs, firsts)
+        # One node that repeats its newest pose spreads the copies until the next stamp.
+        is_repeated = np.diff(np.append(firsts, len(stamps))) > 1
+        if not len(again) or same.mean() < 0.95:
             continue
+        if np.median(spans[is_repeated]) > limits["spread"] * track.period:
+            continue
+        # Two robot_state_publishers are the usual cause, and both publish the description.
+        descriptions = {one.name for one in description_topics(model.evidence.topics)}
+        offered = {one.topic for one in model.evidence.publishers if one.offers > 1}
+        doubled = [
+            one.name
+            for one in model.evidence.topics
+            if one.name in descriptions and (one.name in offered or one.count > 1)
+        ]
+        topic = (*doubled, *track.topics)[0]
+        fix = Fix(f"count its publishers: `{{publishers}} {topic}`")
+        all_twice = bool(doubled) and any(len(one.stamps) > 1 for one in model.statics)
         facts: dict[str, Fact] = {
             "topic": track.name,
             "count": len(stamps),
             "different": different,
+            "also": f"; {doubled[0]} and statics are sent twice too" if all_twice else "",
         }
-        # Two robot_state_publishers are the usual cause, and both publish the description.
-        descriptions = {one.name for one in description_topics(model.evidence.topics)}
-        doubled = [
-            one.topic
-            for one in model.evidence.publishers
-            if one.topic in descriptions and one.offers > 1
-        ]
-        topic = (*doubled, *track.topics)[0]
-        fix = Fix(f"count its publishers: `{{publishers}} {topic}`")
-        severity = Severity.NOTE if is_double else None
+        severity = Severity.NOTE if is_double and not all_twice else None
         yield hit_of(track, facts, fixes=(fix,), severity=severity)
 
 
