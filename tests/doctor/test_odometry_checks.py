@@ -107,6 +107,18 @@ def test_a_constant_delay_between_odometry_and_tf_is_told(delay, aside, told):
     assert finding.evidence[0].startswith(told)
 
 
+def test_the_poses_of_two_odometry_topics_show_no_delay():
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", 20.0, lambda t: circle(t - 0.1))
+    made.odometry = Robot()
+    for topic, aside in (("/odom", 0.0), ("/truth", 0.001)):
+        made.odometry.moving(
+            "odom", "base_link", 50.0, lambda t, aside=aside: circle(t, aside), topic=topic
+        )
+        told = [one.evidence[0] for one in made.judged().findings if one.facts.get("delay")]
+        assert len(told) == (topic == "/odom")
+
+
 def circle(t: float, aside: float = 0.0) -> tuple[float, ...]:
     """Return the pose of a robot on a circle with a radius of 1 m, at 1 m/s."""
     return (math.sin(t), 1.0 - math.cos(t) + aside, 0.0, *turned(t))

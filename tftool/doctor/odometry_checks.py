@@ -134,8 +134,8 @@ def _delayed(track: Track, odometry: Track, topic: str, limits: Limits) -> Hit |
     The positions in Odometry are interpolated. Return None if no delay explains the difference.
     """
     told = odometry.sorted_stamps
-    if len(told) < _FEWEST:
-        return None
+    if len(told) < _FEWEST or len(odometry.topics) > 1:
+        return None  # the poses of two topics, mixed, are no motion
     margin = seconds(limits["most"]) + _STEP
     inside = (track.sorted_stamps > told[0] + margin) & (track.sorted_stamps < told[-1] - margin)
     rows = np.flatnonzero(inside)
