@@ -512,6 +512,16 @@ def test_odometry_that_stalls_and_comes_in_a_burst_is_a_note():
     assert "stall" not in ids(paused, notes=True)
 
 
+@pytest.mark.parametrize(("held", "told"), [(1.2, True), (0.8, False)])
+def test_a_slow_stream_stalls_for_fewer_periods(held, told):
+    made = robot(odometry=False)
+    for tick in range(100):
+        at = 0.2 * tick
+        late = max(0.01, 10.0 + held - at) if at >= 10.2 else 0.01
+        made.sent("odom", "base_link", at, (0.1 * at, 0.0, 0.0, *NO_TURN), latency=late)
+    assert ("stall" in ids(made, notes=True)) is told
+
+
 def test_a_player_that_pauses_is_no_outage():
     made = robot()
     made.hears("/points", "laser", 5.0, "sensor_msgs/PointCloud2")

@@ -328,7 +328,7 @@ _BURST = 3
 """Number of messages of `/clock` that arrive at once after the receiver stalled."""
 
 
-STALL = {"seconds": 0.5, "periods": 10, "samples": 50}
+STALL = {"seconds": 0.5, "periods": 10, "slow_seconds": 1.0, "slow_periods": 5, "samples": 50}
 """Usual thresholds of `stall`."""
 
 
@@ -336,8 +336,8 @@ STALL = {"seconds": 0.5, "periods": 10, "samples": 50}
     "stall",
     Severity.NOTE,
     rule="a regular transform or Odometry topic pauses for {seconds:g} s and {periods:g} periods "
-    "or more, among {samples:g} samples or more. The next message is then older than usual by "
-    "at least half of the pause",
+    "or more, or for {slow_seconds:g} s and {slow_periods:g} periods or more, among {samples:g} "
+    "samples or more. The next message is then older than usual by at least half of the pause",
     headline="{where} {concerned:stalls|stall} for {length:span}",
     detail="{what}: {stalls:times}, the longest from {begin:moment} on (log time); usually every "
     "{period:span}",
@@ -375,6 +375,9 @@ def stalls_of(stream: Track | Heard, limits: Limits = STALL) -> Places:
     if len(steps) < limits["samples"] or stream.families[0]:
         return np.zeros(0, dtype=np.intp)
     period = int(np.median(np.diff(np.sort(stream.stamps))))
-    least = max(limits["periods"] * period, limits["seconds"] * NANOSECONDS)
+    least = min(
+        max(limits["periods"] * period, limits["seconds"] * NANOSECONDS),
+        max(limits["slow_periods"] * period, limits["slow_seconds"] * NANOSECONDS),
+    )
     held = stream.latency[1:] - stream.median_latency > 0.5 * steps
     return np.flatnonzero((steps > least) & held)
