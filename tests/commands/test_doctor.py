@@ -75,7 +75,7 @@ def test_a_check_can_be_explained_and_all_can_be_listed(tftool):
 def test_the_page_of_the_checks_is_as_the_command_prints_it(tftool):
     page = Path(__file__).parents[2] / "docs" / "reference" / "checks.md"
     printed = tftool("doctor", "--list", "--markdown").out
-    assert printed.count("\n### ") == 73
+    assert printed.count("\n### ") == 74
     assert page.read_text(encoding="utf-8") == printed
 
 

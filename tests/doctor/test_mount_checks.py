@@ -12,8 +12,12 @@ from rosbags.rosbag1 import Writer
 
 from tests.frames.motions import product, quaternions, world
 from tests.recordings.writers import ROS1, TF
+from tftool import open_recording
+from tftool.doctor.evidence import evidence_of
+from tftool.doctor.judge import judge
 
 SECOND = 10**9
+IMU, ATTITUDE = "sensor_msgs/msg/Imu", "mount-is-attitude"
 MADE = {"seconds": 50.0, "rates": (40.0, 20.0), "offset": 0.0, "noise": (0.003, 0.3)}
 
 
@@ -173,3 +177,57 @@ def test_rows_are_no_place_for_mounts(tftool, run, tmp_path):
     result = tftool("doctor", run[0], "--mounts", "-o", tmp_path / "rows.csv")
     assert result.status == 2
     assert "--mounts cannot be combined with -o" in result.err
+
+
+def imu(stamp, turn):
+    zero, none = kind("geometry_msgs/msg/Vector3", 0.0, 0.0, 0.0), np.zeros(9)
+    whole = kind("geometry_msgs/msg/Quaternion", *map(float, turn))
+    return kind(IMU, header(stamp, "imu_link"), whole, none, zero, none, zero, none)
+
+
+@pytest.mark.parametrize(
+    ("parent", "swing", "off", "shift", "told"),
+    [
+        ("plane", 0.1, 0.0, 0.0, True),
+        ("base_link", 0.1, 0.0, 0.0, True),
+        ("odom", 0.1, 0.0, 0.0, False),  # a display of the sensor's orientation
+        ("plane", 0.01, 0.0, 0.0, False),  # it turns by less than 1°
+        ("plane", 0.1, 0.005, 0.0, False),
+        ("plane", 0.1, 0.0, 0.01, False),
+    ],
+)
+def test_a_mount_that_equals_the_orientation_of_its_imu_is_no_mount(
+    tmp_path, parent, swing, off, shift, told
+):
+    path = tmp_path / "run.bag"
+    with Writer(path) as writer:
+        topics = {
+            name: writer.add_connection(name, of, typestore=ROS1)
+            for name, of in (("/tf", TF), ("/tf_static", TF), ("/imu", IMU))
+        }
+        start, level = 1_750_000_000 * SECOND, (0.0, 0.0, 0.0, 1.0)
+        for tick in range(200):
+            at = start + tick * SECOND // 20
+            half = 0.5 * swing * math.sin(0.1 * tick)
+            turn = (0.0, math.sin(half), 0.0, math.cos(half))
+            mount = (0.0, math.sin(half + off), 0.0, math.cos(half + off))
+            rows = [
+                ("/imu", imu(at, turn)),
+                ("/tf", transform(at, "odom", "base_link", (0.01 * tick, 0.0, 0.0), level)),
+                ("/tf", transform(at, parent, "imu_link", (shift * (tick % 2), 0.0, 0.0), mount)),
+            ]
+            if not tick:
+                rows += [
+                    ("/tf_static", transform(at, "base_link", "plane", (0.0, 0.0, 0.0), level))
+                ]
+            for topic, message in rows:
+                data = ROS1.serialize_ros1(message, topics[topic].msgtype)
+                writer.write(topics[topic], at + SECOND // 200, data)
+    with open_recording(path) as recording:
+        found = [one for one in judge(evidence_of(recording)).findings if one.id == ATTITUDE]
+    assert len(found) == told
+    if told:
+        assert found[0].message == (
+            f"imu_link in {parent} is the orientation that /imu measures, and no mount"
+        )
+        assert found[0].evidence[0].startswith("100 % of 200 samples equal the orientation")

@@ -17,7 +17,15 @@ from tftool.doctor.stamp_stream import last_part
 from tftool.frames.frames import Frames
 from tftool.frames.transform_log import TransformLog
 from tftool.recordings.container_reader import Recorded
-from tftool.recordings.contract import Edge, Headers, Publisher, RecordedTopic, Stamps, Transforms
+from tftool.recordings.contract import (
+    Edge,
+    Floats,
+    Headers,
+    Publisher,
+    RecordedTopic,
+    Stamps,
+    Transforms,
+)
 from tftool.recordings.description_frames import (
     description_topics,
     joint_state_topics,
@@ -69,6 +77,8 @@ class Evidence:
             commands to move, nanoseconds; empty unless all moving transforms end early.
         played: Topic on which a player such as `ros2 bag play` wrote a log or declared a parameter;
             empty without one, or if no stamps are long before their reception.
+        attitudes: Orientations in Imu messages, by their frame, for frames that a moving transform
+            turns without moving them.
     """
 
     name: str
@@ -93,6 +103,7 @@ class Evidence:
     mounts: "tuple[MeasuredMount, ...] | None" = None
     commands: Mapping[str, Stamps] = field(default_factory=dict)
     played: str = ""
+    attitudes: Mapping[str, "Attitudes"] = field(default_factory=dict)
 
     @property
     def is_generated(self) -> bool:
@@ -109,6 +120,21 @@ class Evidence:
     def lacks_clock(self) -> bool:
         """Whether the source is a recording without `/clock`, so small stamps may be real."""
         return self.recorded and not len(self.clock[0])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Attitudes:
+    """Orientations in the Imu messages of one topic.
+
+    Attributes:
+        topic: Name of the topic.
+        log_times: Times of reception, nanoseconds, shape (n,).
+        rotations: Quaternions x y z w as recorded, shape (n, 4).
+    """
+
+    topic: str
+    log_times: Stamps
+    rotations: Floats
 
 
 # Evidence of a recording
@@ -265,7 +291,45 @@ def _evidence_of_source(
         end=source.end,
         commands=_commands(source, transforms),
         played=_player_topic(source, headers.values(), transforms),
+        attitudes=_attitudes(source, headers, transforms),
     )
+
+
+def _attitudes(
+    source: Recorded, headers: Mapping[str, Headers], transforms: Transforms
+) -> dict[str, Attitudes]:
+    """Return the orientations in Imu messages; see the attribute `attitudes` of `Evidence`."""
+    turning = {
+        edge.child
+        for edge in transforms.edges
+        if not edge.static
+        and not (edge.translations != edge.translations[:1]).any()
+        and (edge.rotations != edge.rotations[:1]).any()
+    }
+    frames = {
+        topic: one.names[0].removeprefix("/")
+        for topic, one in headers.items()
+        if one.type == "sensor_msgs/Imu" and len(one.names) == 1
+    }
+    frames = {topic: frame for topic, frame in frames.items() if frame in turning}
+    rows: dict[str, list[tuple[Stamp, bytes]]] = {}
+    for message in source.messages(frames) if frames else ():
+        # A message ends with the orientation, its covariance, and two vectors with covariances.
+        turn = message.payload[-_IMU_TAIL : 32 - _IMU_TAIL]
+        if len(turn) == 32:
+            rows.setdefault(message.sender.topic, []).append((message.log_time, turn))
+    return {
+        frames[topic]: Attitudes(
+            topic,
+            np.array([log for log, _ in found], dtype=np.int64),
+            np.frombuffer(b"".join(turn for _, turn in found), dtype="<f8").reshape(-1, 4),
+        )
+        for topic, found in rows.items()
+    }
+
+
+_IMU_TAIL = 8 * (4 + 9 + 3 + 9 + 3 + 9)
+"""Bytes of an Imu message after its header."""
 
 
 def _player_topic(source: Recorded, heard: Iterable[Headers], transforms: Transforms) -> str:

@@ -1,15 +1,17 @@
-"""Checks of mounts against recorded motion, which take seconds and run only on request."""
+"""Checks of mounts against recorded motion; those with --mounts take seconds."""
 
 from collections.abc import Iterator
 
 import numpy as np
 
-from tftool.doctor.check import checks_of
-from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
+from tftool.doctor.check import checks_of, hit_of
+from tftool.doctor.findings import Area, Confidence, Fact, Fix, Hit, Severity
 from tftool.doctor.measured_mounts import MeasuredMount
 from tftool.doctor.model import Limits, Model
-from tftool.doctor.wording import dated
+from tftool.doctor.stamp_stream import BASES, Track, last_part
+from tftool.doctor.wording import dated, several
 from tftool.frames.calibration.body_motion import ANGLES, AXES, Floats, difference
+from tftool.geometry.rigid_arrays import angles_between, unit
 
 check = checks_of(Area.VALUES)
 
@@ -86,6 +88,60 @@ def mount_changed(model: Model, limits: Limits) -> Iterator[Hit]:
             days = [f"{found.name} ({dated(found.begin)})" for found in (earlier, one)]
             told = f" between {days[0]} and {days[1]}"
             yield _hit(one, Confidence.LIKELY, when=told, apart="; ".join(outside))
+
+
+@check(
+    "mount-is-attitude",
+    Severity.WARNING,
+    rule="below a base frame that moves, a transform only turns, by more than {moves:g}°. A share "
+    "of {share:g} or more of its samples, {samples:g} or more, equal the orientation in an Imu "
+    "message in its child frame, received at about the same time, to within {degrees:g}°. Not "
+    "reported for the child of a movable joint of the robot description",
+    headline="{edge} is the orientation that {topic} measures, and no mount",
+    detail="{same:%} of {of} samples equal the orientation in a message; they turn by up to "
+    "{turn:deg}, and the position is constant",
+    consequence="in {parent}, the orientation of {topic} is constant: the transform removes what "
+    "the sensor measured",
+    fixes=(Fix("let {sender} publish the fixed mount of the sensor instead"),),
+    causes=("a broadcaster for a display of the sensor, used on a robot",),
+    limits={"moves": 1.0, "share": 0.95, "samples": 20, "degrees": 0.1},
+    needs=("headers",),
+)
+def mount_is_attitude(model: Model, limits: Limits) -> Iterator[Hit]:
+    """The mount of an IMU is the orientation that the IMU measures."""
+    for track in model.dynamic:
+        told = model.evidence.attitudes.get(track.child)
+        base, joint = _moving_base(model, track), model.joint_above.get(track.child)
+        if told is None or not base or (joint is not None and joint.type != "fixed"):
+            continue
+        places, valid = track.by_stamp, np.einsum("ij,ij->i", told.rotations, told.rotations) > 0.5
+        if len(places) < limits["samples"] or not valid.any():
+            continue
+        turns, measured = unit(track.rotations[places]), unit(told.rotations[valid])
+        after = np.searchsorted(told.log_times[valid], track.logs[places])
+        near = (np.clip(after + step, 0, len(measured) - 1) for step in (-2, -1, 0, 1))
+        apart = np.min([angles_between(turns, measured[rows]) for rows in near], axis=0)
+        same = float(np.mean(apart <= np.radians(limits["degrees"])))
+        turn = float(angles_between(turns[:1], turns).max())
+        if same >= limits["share"] and turn > np.radians(limits["moves"]):
+            facts: dict[str, Fact] = {
+                "topic": told.topic,
+                "parent": track.parent,
+                "same": same,
+                "of": len(places),
+                "turn": turn,
+                "sender": several(track.nodes) or "its publisher",
+            }
+            yield hit_of(track, facts, topics=(told.topic,), alone=True)
+
+
+def _moving_base(model: Model, track: Track) -> str:
+    """Return the base frame above an edge, if a moving transform is above this frame; else ""."""
+    above = model.above(track.child)
+    for place, one in enumerate(above):
+        if last_part(one.parent) in BASES:
+            return one.parent if any(other.moves for other in above[place + 1 :]) else ""
+    return ""
 
 
 def _step(one: MeasuredMount, split: int) -> tuple[Floats, Floats]:
