@@ -566,7 +566,9 @@ def test_a_localiser_beside_a_recorded_one_is_told_as_two_sources():
     live = [(stamp + seconds(168 * 3600), pose, number) for stamp, pose, number in rows]
     made.records["map", "odom", False] = [*live, *rows[::2]]
     finding = found(made, "clock-offset")
-    assert finding.evidence[0].startswith("odom in map: 0 ms, base_link in odom: 168 hours")
+    assert finding.evidence[0].startswith(
+        "odom in map: 0 ms, base_link in odom, /scan, /points: 168 hours"
+    )
     assert "odom in map is on two clocks: 80 of its samples" in finding.evidence[0]
     # A command that drops the transform would remove the samples of both sources.
     assert not any(fix.command for fix in finding.fixes)

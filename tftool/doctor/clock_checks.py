@@ -681,7 +681,8 @@ def _offsets(model: Model) -> list[str]:
         if len(one.stamps) > 2 and has_one_clock:
             by = model.shift.by if model.shift is not None and one.families[1] else 0
             grouped[round((one.median_latency + by) / seconds(0.02))].append(one.name)
-    return [
-        f"{', '.join(dict.fromkeys(names[:4]))}: {span(step * 20_000_000)}"
-        for step, names in sorted(grouped.items())
-    ]
+    # Hours that differ by milliseconds are printed alike.
+    told: dict[str, list[str]] = defaultdict(list)
+    for step, names in sorted(grouped.items()):
+        told[span(step * 20_000_000)] += names
+    return [f"{several(list(dict.fromkeys(names)), 4)}: {late}" for late, names in told.items()]
