@@ -124,6 +124,30 @@ def test_single_repetitions_of_a_measured_pose_are_a_note(number, count):
     assert all(one.message.endswith("before steps of up to 15 mm") for one in told)
 
 
+def test_a_long_loss_beside_single_repetitions_is_a_warning():
+    made = Robot()
+    for tick in range(600):
+        # The pose is lost for 0.3 s, and the first pose after that time comes twice.
+        at = 299 if 299 <= tick < 335 else 335 if tick == 336 else tick
+        made.sent("world", "quad", tick / 120.0, measured(at / 120.0))
+    assert ids(made) == ["frozen-pose"]
+    # 36 periods at 0.9 m/s are 0.27 m.
+    assert found(made, "frozen-pose").message == (
+        "quad in world repeats its last pose for up to 292 ms, before a jump of 0.27 m within "
+        "8.33 ms"
+    )
+
+
+def test_short_losses_that_explain_a_jump_are_a_warning_too():
+    made = Robot()
+    for tick in range(900):
+        lost = tick % 100 if tick % 100 < 24 else 0
+        made.sent("world", "quad", tick / 120.0, measured((tick - lost) / 60.0))
+    finding = found(made, "frozen-pose")
+    assert found(made, "teleport").because_of == "frozen-pose"
+    assert finding.severity is Severity.WARNING
+
+
 @pytest.mark.parametrize("far", [0.25, 3.0])
 def test_a_body_that_rests_and_is_then_placed_elsewhere_is_not_frozen(far):
     def pose(t: float) -> Pose:

@@ -241,12 +241,16 @@ def _findings(
     for number, (check, _) in enumerate(hits):
         of_check[check.id].append(number)
     causes = [_cause_of(number, hits, of_check) for number in range(len(hits))]
+    severities = [_severity(check, hit) for check, hit in hits]
+    for number, cause in enumerate(causes):
+        if cause is None or severities[cause] is not Severity.NOTE:
+            continue
+        if set(hits[cause][1].edges) & set(hits[number][1].edges):
+            severities[cause] = severities[number]  # a note would hide what it explains
     grouped: dict[tuple[str, Severity, str | None, int | None, str], list[Hit]] = {}
     for number, ((check, hit), cause) in enumerate(zip(hits, causes, strict=True)):
-        severity = hit.severity or check.severity
-        if severity is Severity.ERROR and hit.confidence is Confidence.POSSIBLE:
-            severity = Severity.WARNING  # only evidence in the data is an error
-        key = (check.id, severity, cause, number if hit.alone else None, hit.group)
+        because_of = None if cause is None else hits[cause][0].id
+        key = (check.id, severities[number], because_of, number if hit.alone else None, hit.group)
         grouped.setdefault(key, []).append(hit)
     findings = [
         replace(
@@ -274,12 +278,19 @@ def _findings(
     return (*told, *(other for other in rest if other.because_of not in placed))
 
 
+def _severity(check: Check, hit: Hit) -> Severity:
+    severity = hit.severity or check.severity
+    if severity is Severity.ERROR and hit.confidence is Confidence.POSSIBLE:
+        return Severity.WARNING  # only evidence in the data is an error
+    return severity
+
+
 def _cause_of(
     number: int, hits: list[tuple[Check, Hit]], of_check: Mapping[str, Sequence[int]]
-) -> str | None:
-    """Return the id of the finding that explains a hit; None if no finding explains the hit.
+) -> int | None:
+    """Return the index of the hit that explains a hit; None if no hit explains it.
 
-    If several findings could explain the hit, the first finding without a cause of its own is used.
+    If several hits could explain the hit, the first one without a cause of its own is used.
 
     Args:
         number: Index of the hit.
@@ -296,7 +307,7 @@ def _cause_of(
                 # A note explains an error or a warning only if both are about the same names.
                 continue
             if _cause_of(other_number, hits, of_check) is None:
-                return other.id
+                return other_number
     return None
 
 

@@ -108,12 +108,13 @@ def _is_zero(track: Track) -> Mask:
     rule="a publisher repeats one pose of a moving frame exactly, with new stamps, for "
     "{seconds:g} s or more and {repeats:g} times or more. Then the frame jumps by {metres:g} m or "
     "more, at {times:g} times its speed after the jump or more. Its usual speed explains the "
-    "distance of the jump in the time since the pose froze, and the frame moved before and after. "
+    "distance of the jump in the time since the pose froze, and the frame moved in the five steps "
+    "before and after. "
     "Or a measured pose is repeated for {end:g} s or more, until its last sample. A pose counts as "
     "measured if all seven numbers change in 95 % of its changes. Before, this pose moved at "
     "{speed:g} m/s or more, so a real stop would need {stop:g} m/s² or more. A note if a "
     "measured pose is repeated {often:g} times or more, and each next step is as long as the time "
-    "since the pose froze",
+    "since the pose froze, unless a teleport is one of these steps",
     headline="{where} {concerned:repeats its|repeat their} last pose for up to {longest:span}"
     "{then}",
     detail="{edge}: the same pose {stretches}{told}",
@@ -251,10 +252,16 @@ def _jumps(frozen: _Frozen, moves: Places, limits: Limits) -> Hit | None:
     lasts = (stamps[ends] - stamps[froze]) / NANOSECONDS
     rests = (ends - froze >= limits["repeats"]) & (lasts >= limits["seconds"])
     since = (stamps[ends + 1] - stamps[froze]) / NANOSECONDS
-    beside = np.vstack([speeds[froze - 1], speeds[ends + 1], speeds[ends + 2]])
     jumps = rests & (strides[ends] >= limits["metres"]) & (strides[ends] <= usual * since)
-    jumps &= speeds[ends] >= limits["times"] * beside[1:].max(axis=0)
-    jumps &= beside.min(axis=0) >= _SLOW * usual
+    jumps &= speeds[ends] >= limits["times"] * np.maximum(speeds[ends + 1], speeds[ends + 2])
+    # Beside a long time, the pose may be frozen for single samples too.
+    ways = np.append(0.0, np.cumsum(strides))
+    for first, last in (
+        (np.maximum(froze - _STEPS, 0), froze),
+        (ends + 1, np.minimum(ends + 1 + _STEPS, len(strides))),
+    ):
+        times = (stamps[last] - stamps[first]) / NANOSECONDS
+        jumps &= ways[last] - ways[first] >= _SLOW * usual * times
     if not jumps.any():
         return None
     worst = int(ends[np.flatnonzero(jumps)[strides[ends][jumps].argmax()]])
@@ -306,6 +313,8 @@ def _catches_up(frozen: _Frozen, limits: Limits) -> Hit | None:
     rests = steady & (stamps[ends] > stamps[froze]) & (speeds >= limits["speed"])
     if np.count_nonzero(rests) < limits["often"]:
         return None
+    # A long loss, in which the frame may slow down, also ends with a step far above the usual one.
+    rests |= (stamps[ends] > stamps[froze]) & (ways >= _LONG_STEP * percentile(ways, 95))
     jump = float(ways[rests].max())
     then = f", before steps of up to {metres(jump)}"
     return frozen.hit("steps", rests, then, "", jump=jump)
@@ -319,6 +328,9 @@ _MEASURED = 0.95
 
 _STEPS = 5
 """Number of steps that show the speed at which a pose froze."""
+
+_LONG_STEP = 8.0
+"""Length of a step after a loss, as a multiple of 95 % of the steps."""
 
 _STEADY_SPEED = 0.3
 """Largest relative difference of two speeds of a frame that moves on."""
