@@ -27,6 +27,22 @@ def test_two_clocks_name_the_edges_of_the_fewer():
     assert ids(made) == ["clock-mixture"]
 
 
+@pytest.mark.parametrize(
+    ("kind", "frame", "told"),
+    [
+        ("lane_msgs/VehicleState", "base_link", ["clock-mixture"]),
+        ("lane_msgs/VehicleState", "", []),
+        ("lane_msgs/DriveCommand", "base_link", []),
+    ],
+)
+def test_messages_of_a_robots_own_type_in_a_frame_of_tf_are_on_its_clock_too(kind, frame, told):
+    made = robot(start=136.0, log_from=START)
+    made.hears("/ekf", frame, kind=kind)
+    _, rows = made.heard["/ekf"]
+    rows[:] = [(stamp + seconds(START - 136.0), log, name) for stamp, log, name in rows]
+    assert ids(made) == told
+
+
 def test_a_simulation_with_its_clock_is_healthy():
     made = Robot(start=12.0, log_from=START)
     made.moving("odom", "base_link")

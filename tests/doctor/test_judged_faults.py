@@ -185,6 +185,13 @@ def test_scans_in_an_unknown_frame_are_an_error_on_a_robot_only():
         assert found(made, "unknown-frame").severity is severity
 
 
+def test_messages_of_a_robots_own_type_in_an_unknown_frame_are_a_note():
+    made = robot()
+    made.hears("/lane", "camera", kind="lane_msgs/LaneState")
+    assert found(made, "unknown-frame").severity is Severity.NOTE
+    assert ids(made) == []
+
+
 def test_results_in_an_unknown_frame_are_a_note():
     for kind, severity in (
         ("geometry_msgs/PoseStamped", Severity.NOTE),

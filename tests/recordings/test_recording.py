@@ -1,6 +1,7 @@
 """Tests that a recording answers like a buffer, over its whole length."""
 
 import math
+import struct
 
 import numpy as np
 import pytest
@@ -19,6 +20,8 @@ from tftool import (
     open_recording,
     seconds,
 )
+from tftool.recordings.channel import Channel
+from tftool.recordings.mcap.write import McapWriter
 
 SENT = content(200)
 
@@ -137,6 +140,43 @@ def test_of_moving_and_static_what_came_last_counts(tmp_path):
         assert not buffer.can_transform("base", "arm", 2 * SECOND)
     with opened(tmp_path, [moving, static]) as recording:
         assert recording.buffer.can_transform("base", "arm", 2 * SECOND)
+
+
+def packed_header(number):
+    sec, part = divmod(number, 10)
+    return struct.pack("<4siII7s", b"\0\1\0\0", 100 + sec, part * 10**8, 7, b"camera\0") + b"data"
+
+
+def packed_label(number):
+    # A class, a count and a label have the layout of a header, but do not run like a clock.
+    return struct.pack("<4siII7s", b"\0\1\0\0", 2, number % 3, 7, b"orange\0")
+
+
+@pytest.mark.parametrize(
+    ("kind", "packed", "is_header"),
+    [
+        ("lane_msgs/msg/Lane", packed_header, True),
+        ("lane_msgs/msg/Label", packed_label, False),
+        ("lane_msgs/msg/Number", lambda number: struct.pack("<4sd", b"\0\1\0\0", number), False),
+        # tftool knows this type, which has a stamp and the name of a node, but no header.
+        ("rcl_interfaces/msg/ParameterEvent", packed_header, False),
+    ],
+)
+def test_a_header_of_an_unknown_type_without_a_definition_is_read(
+    tmp_path, kind, packed, is_header
+):
+    writer = McapWriter(tmp_path / "run.mcap")
+    channel = writer.channel(Channel("/lane", kind, "cdr", "ros2msg", b""))
+    for number in range(40):
+        writer.write(channel, 500 * SECOND + number * SECOND // 10, packed(number))
+    writer.finish()
+    with open_recording(tmp_path / "run.mcap") as recording:
+        headers = recording.source.headers()
+    assert list(headers) == ["/lane"] * is_header
+    if is_header:
+        assert set(headers["/lane"].frame_ids) == {"camera"}
+        expected = [100 * SECOND + number * SECOND // 10 for number in range(40)]
+        assert headers["/lane"].stamps.tolist() == expected
 
 
 def test_missing_topics_headers_frames_and_files_are_refused(tmp_path):

@@ -1,5 +1,6 @@
 """Checks of clocks: several clocks, offsets between clocks, future stamps and stray stamps."""
 
+import re
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 
@@ -49,9 +50,10 @@ CONSTANTS_AHEAD = seconds(1)
     "clock-mixture",
     Severity.ERROR,
     rule="stamps below and above 10⁸ s occur together in transforms, joint states and messages "
-    "with a position. The stamps that differ from /clock count as wrong; without /clock, "
-    "those of the smaller group. An error only if the wrong stamps are those of moving "
-    "transforms, or of sensors and odometry whose frames move. A warning for other messages, "
+    "with a position, or of a robot's own type in a frame of tf. The stamps that differ from "
+    "/clock count as wrong; without /clock, those of the smaller group. An error only if the "
+    "wrong stamps are those of moving transforms, or of sensors and odometry whose frames move. "
+    "A warning for other messages, "
     "and if each clock has a tree of its own. A note for single messages, and for messages in "
     "frames that static transforms place",
     headline="{where}{once} {concerned:is|are} stamped with {odd_clock}, {others} with "
@@ -146,8 +148,23 @@ def _placed(model: Model) -> list[Heard]:
     """Return the topics whose stamps are used in lookups: joint states, messages with positions.
 
     Programs look up the frames of messages with a position, but not those of diagnostics or logs.
+    Messages of a robot's own types may have positions in the frames of tf; commands have none.
     """
-    return [one for one in model.heard if one.is_spatial or one.type == JOINT_STATES]
+    return [
+        one
+        for one in model.heard
+        if one.is_spatial
+        or one.type == JOINT_STATES
+        or (
+            one.has_own_type
+            and one.frame.removeprefix("/") in model.frames
+            and not _COMMAND.search(f"{one.topic} {one.type}".lower())
+        )
+    ]
+
+
+_COMMAND = re.compile("cmd|command|control|drive|twist")
+"""Words in the topics and types of commands."""
 
 
 def _is_single(stream: "Track | Heard") -> bool:

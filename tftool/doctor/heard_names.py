@@ -24,7 +24,8 @@ check = checks_of(Area.NAMES)
 @check(
     "unknown-frame",
     Severity.ERROR,
-    rule="the frame of a message with a position is in no transform of the whole recording. A "
+    rule="the frame of a message with a position, or of a message of a robot's own type, is in no "
+    "transform of the whole recording. A "
     "warning if none of the messages is a scan, a point cloud or a range, which costmaps and "
     "maps have to place, or if tf has no base frame. A note if none of the messages comes "
     "from a sensor, or if only the frame of a localiser or of the earth is unknown. A note "
@@ -49,10 +50,12 @@ def unknown_frame(model: Model, limits: Limits) -> Iterator[Hit]:
     if not model.tracks:
         return
     by_name: dict[str, list[Heard]] = defaultdict(list)
+    placed = {heard.frame for heard in model.heard if heard.is_spatial}
     for heard in model.heard:
         known = heard.frame in model.frames or heard.frame[1:] in _slashed(heard, model)
         known = known or heard.frame in model.described
-        if heard.frame and heard.is_spatial and not known and not is_navsat_output(heard):
+        may_be_placed = heard.is_spatial or (heard.has_own_type and heard.frame not in placed)
+        if heard.frame and may_be_placed and not known and not is_navsat_output(heard):
             by_name[heard.frame].append(heard)
     for name, heards in by_name.items():
         count = sum(len(heard.stamps) for heard in heards)

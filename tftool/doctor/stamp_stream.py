@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, seconds
 from tftool.geometry.rigid_arrays import Floats, angles_between, unit
+from tftool.messages import definitions
 from tftool.recordings.contract import Edge, Headers, Publisher, Stamps, Transforms, median
 
 Number = TypeVar("Number", bound=np.generic)
@@ -389,6 +390,11 @@ class Heard(Stream):
     def is_spatial(self) -> bool:
         """Whether the topic's messages contain positions."""
         return is_spatial(self.type)
+
+    @property
+    def has_own_type(self) -> bool:
+        """Whether the type is from a package that tftool does not know, such as a robot's own."""
+        return self.type.partition("/")[0] not in definitions.table()
 
 
 def bounded(stamps: Stamps) -> Stamps:

@@ -10,6 +10,7 @@ import numpy as np
 
 from tftool.base.errors import InputError
 from tftool.base.stamps import NANOSECONDS, Stamp
+from tftool.messages import definitions
 from tftool.messages.layouts import CDR, ROS1, Layout
 from tftool.messages.transform_rows import LONGEST_NAME
 from tftool.recordings.channel import TRANSIENT_LOCAL, Channel
@@ -217,13 +218,19 @@ class Recorded:
     def headers(
         self, topics: Collection[str] | None = None, progress: Progress | None = None
     ) -> dict[str, Headers]:
-        """Return the headers of messages by topic; None selects all topics that have headers."""
+        """Return the headers of messages by topic; None selects all topics that have headers.
+
+        Messages of an unknown type without a definition have headers if their bytes look like ones.
+        """
         found: dict[str, _Heads] = {}
         of_stream: dict[int, _Heads] = {}
         for number, stream in enumerate(self._container.streams):
-            if (topics is None or stream.topic in topics) and begins_with_header(stream):
-                heads = found.setdefault(stream.topic, _Heads(stream))
-                of_stream[number] = heads
+            if topics is not None and stream.topic not in topics:
+                continue
+            if begins_with_header(stream):
+                of_stream[number] = found.setdefault(stream.topic, _Heads(stream))
+            elif _is_unknown(stream):
+                of_stream[number] = found.setdefault(stream.topic, _UncertainHeads(stream))
         for batch in self._batches(of_stream.keys(), progress, _HEAD_BYTES):
             for number in range(len(batch)):
                 start = int(batch.starts[number])
@@ -231,7 +238,9 @@ class Recorded:
                 head = batch.buffer[start:end].tobytes()
                 log_time = int(batch.log_times[number])
                 of_stream[int(batch.senders[number])].append(head, log_time)
-        return {topic: heads.finished() for topic, heads in sorted(found.items())}
+        return {
+            topic: heads.finished() for topic, heads in sorted(found.items()) if heads.are_plausible
+        }
 
     def clock(self) -> tuple[Stamps, Stamps]:
         """Return the times in `/clock` messages, and their log times, nanoseconds, shape (n,)."""
@@ -314,6 +323,11 @@ class _Heads:
         self._log_times.append(log_time)
         self._frames.append(place)
 
+    @property
+    def are_plausible(self) -> bool:
+        """Whether the messages have headers."""
+        return True
+
     def finished(self) -> Headers:
         """Return the collected headers as columns."""
         return Headers(
@@ -324,6 +338,35 @@ class _Heads:
             tuple(self._names),
             np.frombuffer(self._frames, dtype=np.int32),
         )
+
+
+class _UncertainHeads(_Heads):
+    """Beginnings of one topic's messages that may be headers; the definition is not recorded."""
+
+    def __init__(self, stream: Channel) -> None:
+        super().__init__(stream)
+        self._messages = 0
+
+    def append(self, head: bytes, log_time: int) -> None:
+        """Append the first bytes of a message if they look like a header."""
+        self._messages += 1
+        order = ">" if head[:2] == b"\x00\x00" else "<"
+        if len(head) < 16:
+            return
+        sec, nanosec, length = struct.unpack_from(f"{order}iII", head, 4)
+        name = head[16 : 16 + length]
+        is_name = 1 < length == len(name) and name[-1] == 0 and name[:-1].isascii()
+        if sec >= 0 and nanosec < NANOSECONDS and is_name and name[:-1].decode().isprintable():
+            super().append(head, log_time)
+
+    @property
+    def are_plausible(self) -> bool:
+        """Whether the messages look like headers whose stamps run like a clock."""
+        stamps = np.frombuffer(self._stamps, dtype=np.int64)
+        if len(stamps) < max(3, 0.95 * self._messages) or np.mean(np.diff(stamps) >= 0) < 0.95:
+            return False
+        lasts, real = int(stamps[-1] - stamps[0]), self._log_times[-1] - self._log_times[0]
+        return 0.1 * real <= lasts <= 10 * real and lasts > 0
 
 
 def _unpacked(batch: Batch) -> Iterator[Batch]:
@@ -396,6 +439,14 @@ def begins_with_header(stream: Channel) -> bool:
         if field and "=" not in field:
             return _HEADER_FIELD.fullmatch(field) is not None
     return False
+
+
+def _is_unknown(stream: Channel) -> bool:
+    """Whether a stream has messages of ROS 2 without a definition, of a type unknown to tftool."""
+    package, _, _ = stream.type.partition("/")
+    return (
+        stream.encoding == "cdr" and not stream.message_text and package not in definitions.table()
+    )
 
 
 def open_found(found: Found) -> Container:
