@@ -230,6 +230,8 @@ def test_a_robot_of_ros_1_whose_nodes_are_known_was_not_played_again(nodes, ros,
     told = judge(replace(evidence, transforms=transforms, publishers=publishers)).findings
     (shift,) = [one for one in told if one.id == "shifted-clock"]
     assert (shift.severity is Severity.WARNING) is is_shown
+    assert shift.evidence[0].endswith("; no publisher has the name of a player") is is_shown
+    assert not (is_shown and "played again" in shift.fixes[0].text)
 
 
 def test_a_stream_that_differs_by_more_than_the_spread_is_named_beside_a_shift():

@@ -82,6 +82,16 @@ def test_a_filter_far_below_the_positions_that_it_uses():
     assert ids(far_away(-8.0)) == []
 
 
+def test_of_two_publishers_the_one_near_in_time_is_named():
+    made = far_away(-800.0)
+    made.publishers = [
+        replace(one, node="/ekf") if one.topic == "/tf" else one for one in made.publishers
+    ]
+    made.moving("odom", "base_link", offset=9000.0, node="/camera")
+    finding = found(made, "odometry-tf-mismatch")
+    assert finding.fixes[0].text == "look at what /ekf, which sends base_link in odom, uses for z"
+
+
 @pytest.mark.parametrize(
     ("delay", "aside", "told"),
     [

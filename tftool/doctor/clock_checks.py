@@ -244,7 +244,9 @@ def shifted_clock(model: Model, limits: Limits) -> Iterator[Hit]:
     is_whole = model.shift.streams == model.shift.of
     nodes = [one.node for one in model.evidence.publishers]
     is_live = all(node and "play" not in node.lower() for node in nodes) and is_ros1(model.evidence)
-    is_shown = model.shift.by < 0 or (is_live and is_whole and not played)
+    is_known = is_live and is_whole and not played and model.shift.by > 0
+    is_shown = model.shift.by < 0 or is_known
+    cure = _BESIDE_PLAYER if is_old and played else cure_of_offset(model)
     yield Hit(
         since=model.start,
         count=model.shift.streams,
@@ -260,13 +262,15 @@ def shifted_clock(model: Model, limits: Limits) -> Iterator[Hit]:
             "others": f", and {several(others)}" if others else "",
             "player": f"; {played} names a player: the data was replayed from another recording"
             if is_old and played
+            else "; no publisher has the name of a player"
+            if is_known
             else "",
             "most": "most" if others or _has_unshifted(model, model.shift) else "all",
             "live": "a node on the recorder's computer that looks up its present time gets data of "
             "another time, or none",
         },
         severity=Severity.WARNING if is_shown and not model.was_played else None,
-        fixes=(_BESIDE_PLAYER if is_old and played else cure_of_offset(model),),
+        fixes=(COMPARE_CLOCKS if is_known else cure,),
         alone=True,
     )
 

@@ -11,7 +11,7 @@ from tftool.doctor.gap_checks import is_detection
 from tftool.doctor.missing_joins import is_world
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_stream import BASES, ROUNDED, Places, Track, are_same, last_part
-from tftool.doctor.wording import metres, span
+from tftool.doctor.wording import metres, several, span
 from tftool.geometry.rigid_arrays import Floats, angles_between, rotate, unit
 from tftool.recordings.contract import median, percentile
 
@@ -338,6 +338,12 @@ def _far_apart(track: Track, odometry: Track, topic: str, limits: Limits) -> Hit
         return None
     axis = int(np.abs(away).mean(axis=0).argmax())
     mine, theirs = track.translations[some[0], axis], odometry.translations[others[0], axis]
+    # Of several publishers, those whose samples are near in time.
+    named = dict(zip(np.unique(track.senders).tolist(), track.publishers, strict=True))
+    nodes = {named[number].node for number in np.unique(track.senders[some]).tolist()}
+    sender = f"the publisher of {track.name}"
+    if all(nodes) and len(track.nodes) > 1:
+        sender = f"{several(sorted(nodes))}, which sends {track.name},"
     return Hit(
         edges=(track.edge,),
         topics=odometry.topics,
@@ -355,7 +361,7 @@ def _far_apart(track: Track, odometry: Track, topic: str, limits: Limits) -> Hit
             "in the message",
         },
         severity=Severity.WARNING,
-        fixes=(Fix(f"look at what the publisher of {track.name} uses for {'xyz'[axis]}"),),
+        fixes=(Fix(f"look at what {sender} uses for {'xyz'[axis]}"),),
         alone=True,
     )
 
