@@ -55,12 +55,50 @@ def test_odometry_that_is_reset_sends_no_placeholder():
 
 def test_two_values_of_one_node_are_not_two_sources():
     made = detections(invalid=(0.0, 0.0, 0.4, *NO_TURN))
+    # A filtered recording has one name for all nodes.
+    finding = found(made, "publisher-conflict")
+    assert finding.message.endswith("which alternate, the recording names only /detector")
+    assert finding.fixes[0].text == (
+        "while the robot runs, list the senders: `ros2 topic info --verbose /tf`"
+    )
+    made.moving("odom", "base_link", node="/driver")
     finding = found(made, "publisher-conflict")
     assert finding.message == (
         "obj1 in camera, obj2 in camera have two different values, which alternate, both "
         "sent by /detector"
     )
     assert not any("joint" in fix.text for fix in finding.fixes)
+
+
+def two_filters(map_hz: float = 0.0) -> Robot:
+    """Return a robot with two filters of one edge under one name, and a localiser above."""
+    made = Robot()
+    sent = [(tick / 60.0, 0.0) for tick in range(480)]
+    sent += [(tick / 30.0 + 0.002, 0.4) for tick in range(240)]
+    for at, aside in sorted(sent):
+        pose = (0.5 * at, aside, 0.0, *turned(0.01 * at))
+        made.sent("odom", "base_link", at, pose, latency=0.004, node="/ekf")
+    for tick in range(round(8.0 * map_hz)):
+        at = tick / map_hz
+        # The localiser uses the newest transform, of either filter.
+        made.sent("map", "odom", at, (1.0, -0.4 * (tick % 3 == 0), 0.0, *NO_TURN), node="/ekf")
+    return made
+
+
+def test_two_rates_of_one_edge_are_two_senders_even_under_one_name():
+    finding = found(two_filters(), "publisher-conflict")
+    assert finding.message.endswith(
+        "which alternate, two senders (60 Hz and 30 Hz); the recording names only /ekf"
+    )
+    assert "/ekf" not in finding.fixes[0].text
+
+
+def test_a_localiser_that_makes_up_for_two_filters_joins_their_conflict():
+    made = two_filters(map_hz=29.0)
+    finding = found(made, "publisher-conflict")
+    assert ids(made).count("publisher-conflict") == 1
+    assert set(finding.edges) == {("odom", "base_link"), ("map", "odom")}
+    assert "odom in map makes up for it" in finding.evidence[0]
 
 
 def freezes(t: float) -> Pose:

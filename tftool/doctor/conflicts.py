@@ -17,6 +17,7 @@ from tftool.geometry.rigid_arrays import (
     angles_between,
     conjugate,
     multiply,
+    rotate,
     rotation_vectors,
     unit,
 )
@@ -148,6 +149,100 @@ def values_at_one_stamp(track: Track, limits: Limits) -> Hit | None:
     sure = Confidence.LIKELY if count >= limits["samples"] else Confidence.POSSIBLE
     hit = _conflict(track, ("A", "B"), owned, owned, sure)
     return replace(hit, facts={**hit.facts, "told": f"{hit.count:,} stamps carry two values"})
+
+
+def with_senders(model: Model, track: Track, hit: Hit) -> Hit:
+    """Say what a conflict's recording shows about the senders, if it names only one node.
+
+    In a filtered recording, all transforms have the name of one node. So one node is proved only if
+    the recording names another node on the same topic.
+    """
+    if not len(track.nodes) == len(track.publishers) == 1 or not track.nodes[0]:
+        return hit
+    node, usual = track.nodes[0], find_publishers([track])
+    others = {one.node for one in model.evidence.publishers if one.topic in track.topics}
+    if len(others) > 1:
+        told = f"both sent by {node}"
+        fix = Fix(f"find out where {node} gets each of the two values from")
+    else:
+        rates = _timers(track)
+        told = f"the recording names only {node}"
+        if rates:
+            told = f"two senders ({rates[0]:.3g} Hz and {rates[1]:.3g} Hz); {told}"
+        fix = Fix(f"while the robot runs, list the senders: `{{publishers}} {track.topics[0]}`")
+    fixes = tuple(fix if one == usual else one for one in hit.fixes)
+    return replace(hit, fixes=fixes, facts={**hit.facts, "seen": f", which alternate, {told}"})
+
+
+def _timers(track: Track) -> tuple[float, float] | None:
+    """Return the rates of an edge's two motions, if each arrives regularly, at its own rate."""
+    order = np.argsort(track.logs, kind="stable")[:MOST_FOLLOWED]
+    owners = _nearer_track(track, order)
+    rates = []
+    for number in (0, 1):
+        steps = np.diff(track.logs[order[owners == number]])
+        usual = float(np.median(steps)) if len(steps) >= _LEAST_STEPS else 0.0
+        if usual <= 0.0 or np.mean(np.abs(steps - usual) < 0.25 * usual) < 0.95:
+            return None
+        rates.append(NANOSECONDS / usual)
+    return None if max(rates) < 1.2 * min(rates) else (rates[0], rates[1])
+
+
+def _nearer_track(track: Track, order: Places) -> Places:
+    """Return the number (0 or 1) of the nearer of two motions for each sample, shape (n,).
+
+    Args:
+        track: The edge's samples.
+        order: Rows of the samples in the order in which they arrived, shape (n,).
+    """
+    poses = np.hstack((track.translations[order], unit(track.rotations[order]))).tolist()
+    ends, owners = poses[:1], []
+    for pose in poses:
+        away = [_pose_distance(pose, end, 1.0) for end in ends]
+        best = int(away[-1] < away[0])
+        if len(ends) == 1 and away[0] >= _APART:
+            ends.append(pose)
+            best = 1
+        ends[best] = pose
+        owners.append(best)
+    return np.array(owners)
+
+
+_LEAST_STEPS = 20
+"""Minimum number of steps that show the rate of a motion."""
+
+_APART = 0.05
+"""Distance of two poses, a radian counting as a metre, from which they are of two motions."""
+
+
+def follows(upper: Track, lower: Track) -> bool:
+    """Whether the jumps of an edge only make up for the two values of the edge below.
+
+    Composed with the nearer of the two motions of the lower edge, the upper edge then moves a tenth
+    as far as alone.
+    """
+    order = np.argsort(lower.logs, kind="stable")[:MOST_FOLLOWED]
+    owners = _nearer_track(lower, order)
+    rows = upper.by_stamp[upper.sorted_stamps <= lower.stamps[order].max()]
+    ways = []
+    for number in (0, 1):
+        own = order[owners == number]
+        own = own[np.argsort(lower.stamps[own], kind="stable")]
+        if not len(own):
+            return False
+        stamps = lower.stamps[own]
+        after = np.clip(np.searchsorted(stamps, upper.stamps[rows]), 1, max(1, len(own) - 1))
+        after = np.minimum(after, len(own) - 1)
+        near = own[
+            after - (upper.stamps[rows] - stamps[after - 1] < stamps[after] - upper.stamps[rows])
+        ]
+        moved = rotate(unit(upper.rotations[rows]), lower.translations[near])
+        ways.append(upper.translations[rows] + moved)
+    if len(rows) < _LEAST_STEPS:
+        return False
+    steps = np.stack([np.linalg.norm(to[1:] - since[:-1], axis=1) for since in ways for to in ways])
+    alone = float(upper.apart(rows[1:], rows[:-1]).sum())
+    return float(steps.min(axis=0).sum()) < 0.1 * alone
 
 
 def with_doubled(model: Model, track: Track, hit: Hit) -> Hit:
@@ -474,9 +569,9 @@ def _follow(track: Track, places: Places, limits: Limits) -> Places:
     return np.array(owners)
 
 
-def _pose_distance(a: list[float], b: list[float]) -> float:
+def _pose_distance(a: list[float], b: list[float], radian: float = _RADIAN) -> float:
     away = math.dist(a[:3], b[:3])
-    return away + _RADIAN * angle_between((a[3], a[4], a[5], a[6]), (b[3], b[4], b[5], b[6]))
+    return away + radian * angle_between((a[3], a[4], a[5], a[6]), (b[3], b[4], b[5], b[6]))
 
 
 def _conflict(
@@ -508,9 +603,6 @@ def _conflict(
     apart, turned = track.apart(*owned), track.turned(*owned)
     seen = f": {names[0]} and {names[1]}" if known else ", which alternate"
     fix = find_publishers([track])
-    if is_one:
-        seen = f", which alternate, both sent by {track.nodes[0]}"
-        fix = Fix(f"find out where {track.nodes[0]} gets each of the two values from")
     told = f"latencies {span(late[0])} and {span(late[1])}"
     if abs(late[0] - late[1]) > _TWO_CLOCKS:
         # On two clocks, only the recorder's clock shows which samples are dated wrongly.

@@ -11,6 +11,7 @@ from tftool.doctor.check import checks_of, threads
 from tftool.doctor.conflicts import (
     fed_twice,
     find_publishers,
+    follows,
     is_corrected,
     is_revolute,
     named_conflict,
@@ -18,6 +19,7 @@ from tftool.doctor.conflicts import (
     unnamed_conflict,
     values_at_one_stamp,
     with_doubled,
+    with_senders,
 )
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
@@ -104,7 +106,8 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
     "the steps and {near_changes:g} or more are {near:g} m or longer, each track has a share of "
     "{near_share:g}, and the tracks are {near_times:g} times as far apart as 95 % of the steps in "
     "them. If samples jump {near_changes:g} times or more, each time within 1 s of the last jump, "
-    "and come at 1.5 times the usual rate meanwhile, this time is also judged alone. A note for "
+    "and come at 1.5 times the usual rate meanwhile, this time is also judged alone. A conflict of "
+    "the edge above is part of the finding if both edges together move a tenth as far. A note for "
     "one of three or more objects of one publisher that come and go, and for a frame that only "
     "turns, unless one value returns again and again. A warning if the publishers are unknown, if "
     "no frame is below this frame and no message is in it, or for a mount whose two values differ "
@@ -172,6 +175,8 @@ def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
         hit = fed or hit
         if hit is None:
             continue
+        if hit.confidence is not Confidence.CERTAIN:
+            hit = with_senders(model, track, hit)
         hit = replace(hit, severity=severity_of(model, track, hit, limits))
         # Edges in the same messages have the same publishing nodes.
         like = (t for t in apart if np.isin(track.messages, t.messages).mean() > 0.5)
@@ -185,7 +190,7 @@ def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
         ):
             group = f"{track.parent} {track.nodes[0]}"
         told_of[track.edge] = replace(with_doubled(model, track, hit), alone=False, group=group)
-    told_of = _folded(told_of)
+    told_of = _folded(_without_followers(told_of, model.dynamic))
     odometry = model.evidence.odometry
     for told in () if odometry is None else [Track(edge, odometry) for edge in odometry.edges]:
         told.arrivals = told.logs
@@ -202,6 +207,27 @@ def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
             hit = replace(hit, topics=told.topics, facts={**hit.facts, "seen": seen})
         told_of[told.edge] = hit
     yield from told_of.values()
+
+
+def _without_followers(
+    conflicts: dict[tuple[str, str], Hit], tracks: Sequence[Track]
+) -> dict[tuple[str, str], Hit]:
+    """Merge a conflict that only makes up for a conflict of the edge below into the latter.
+
+    A localiser computes map to odom from odom to base_link; if the latter alternates, both do.
+    """
+    by_edge = {track.edge: track for track in tracks}
+    kept = dict(conflicts)
+    for upper in conflicts:
+        for lower, cause in list(kept.items()):
+            if lower[0] == upper[1] and follows(by_edge[upper], by_edge[lower]):
+                also = (
+                    f"{cause.facts['also']}; {by_edge[upper].name} makes up for it, and jumps too"
+                )
+                edges = (*cause.edges, upper)
+                kept[lower] = replace(cause, edges=edges, facts={**cause.facts, "also": also})
+                kept.pop(upper, None)
+    return kept
 
 
 def _folded(conflicts: dict[tuple[str, str], Hit]) -> dict[tuple[str, str], Hit]:
