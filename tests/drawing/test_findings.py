@@ -3,6 +3,7 @@
 import io
 import json
 import re
+from dataclasses import replace
 from xml.etree import ElementTree
 
 import pytest
@@ -222,6 +223,18 @@ def test_each_check_can_be_explained_without_a_finding(check):
         assert f"{name} = {value:g}" in text
     for link in check.links:
         assert link in text
+
+
+def test_each_condition_of_a_rule_is_on_a_line_of_its_own():
+    check = replace(CHECKS["gap"], rule="above 0.5 s. A note below 1 s. 5 gaps are enough")
+
+    lines = findings.explained(check).splitlines()
+
+    start = lines.index("rule     above 0.5 s.")
+    assert lines[start + 1 : start + 3] == [
+        9 * " " + "A note below 1 s.",
+        9 * " " + "5 gaps are enough.",
+    ]
 
 
 @pytest.mark.parametrize("check", CHECKS.values(), ids=CHECKS)

@@ -1,7 +1,7 @@
 """The doctor's diagnosis for terminals, --json, Markdown and build servers (JUnit)."""
 
 from collections.abc import Sequence
-from re import findall, fullmatch, sub
+from re import findall, fullmatch, split, sub
 from string import Formatter
 from textwrap import TextWrapper
 from typing import Any
@@ -405,8 +405,9 @@ def explained(check: Check, width: int | None = None) -> str:
         "",
         f"  {check.severity.value}, about {check.area.value}",
         "",
-        f"rule     {filled(check.rule, check.limits)}.",
     ]
+    for number, sentence in enumerate(_rule(check)):
+        lines.append(f"{'rule   ' if not number else '       '}  {sentence}")
     if check.why:
         lines.append(f"why      {check.why}.")
     if check.limits:
@@ -432,6 +433,11 @@ def explained(check: Check, width: int | None = None) -> str:
         )
         lines = [one for line in lines for one in how.wrap(line) or [""]]
     return "\n".join(lines) + "\n"
+
+
+def _rule(check: Check) -> list[str]:
+    """Return the sentences of a check's rule, each of which is one condition."""
+    return split(r"(?<=\.) (?=[A-Z0-9])", f"{filled(check.rule, check.limits)}.")
 
 
 def as_page() -> str:
@@ -460,7 +466,9 @@ def as_page() -> str:
 def _paragraphs(check: Check) -> list[str]:
     """Return the lines of a Markdown page that describe one check."""
     lines = [f"### {check.id}", "", f"*{check.severity.value}*: {_marked(check.summary)}.", ""]
-    lines.append(f"- **rule**: {_marked(filled(check.rule, check.limits))}.")
+    first, *others = _rule(check)
+    lines.append(f"- **rule**: {_marked(first)}")
+    lines += [f"  - {_marked(sentence)}" for sentence in others]
     if check.why:
         lines.append(f"- **why**: {_marked(check.why)}.")
     if check.limits:
