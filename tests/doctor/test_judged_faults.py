@@ -125,7 +125,9 @@ def test_transforms_statics_and_descriptions_that_are_all_sent_twice_are_a_warni
     evidence = replace(evidence, topics=(*evidence.topics, described))
     (told,) = [one for one in judge(evidence).findings if one.id == "sent-twice"]
     assert told.severity is (Severity.WARNING if copies == 2 else Severity.NOTE)
-    assert ("/robot_description and statics are sent twice" in told.evidence[0]) is (copies == 2)
+    assert ("/robot_description and statics came more than once" in told.evidence[0]) is (
+        copies == 2
+    )
 
 
 @pytest.mark.parametrize("noise", [0.0, 0.02e-3, 0.1e-3, 0.15e-3, 0.3e-3])
@@ -358,6 +360,13 @@ def test_a_slash_that_the_transforms_of_an_old_robot_have_too_is_a_note():
     assert found(made, "slash-twins").message == "/odom names /odom, tf knows odom"
 
 
+def test_a_slash_in_joint_states_is_a_note_because_nobody_places_them():
+    made = Robot(kind="ROS 1 bag")
+    made.moving("odom", "base_link")
+    made.hears("/joint_states", "/base_link", kind="sensor_msgs/JointState")
+    assert found(made, "slash-twins").severity is Severity.NOTE
+
+
 def test_only_a_frame_with_the_name_of_a_mount_lacks_a_static_transform():
     for frame, told in (
         ("LHR-FD35", "unknown-frame"),
@@ -422,6 +431,17 @@ def test_a_tag_that_jumps_by_metres_between_detections_is_told():
             finding = found(made, "teleport")
             assert "by up to 2.40 m, 7 times by more than 1 m within 1 s" in finding.message
             assert "seen at 5 m to 8.7" in finding.evidence[0]
+
+
+@pytest.mark.parametrize(("speed", "told"), [(4.0, False), (0.5, True)])
+def test_a_fast_tag_that_is_not_detected_for_a_while_has_only_moved_on(speed, told):
+    made = Robot()
+    for tick in range(400):
+        t = 0.05 * tick
+        if t % 4.0 < 3.4:  # 0.6 s without detections, in which a slow tag moves by 2.4 m, too
+            z = speed * t + (0.0 if speed == 4.0 else 2.1 * int(t / 4.0))
+            made.sent("camera", "tag0", t, (0.0, 0.0, 5.0 + z, *NO_TURN))
+    assert ("teleport" in ids(made)) is told
 
 
 def test_a_velocity_without_a_frame_is_a_note():

@@ -227,7 +227,8 @@ def _renames(model: Model, name: str, alike: list[str], heards: list[Heard]) -> 
     Severity.ERROR,
     rule="the frame in a header begins with a slash, and a transform has the same name without the "
     "slash. A warning in ROS 1, whose tf removes the slash, and for topics other than scans, point "
-    "clouds, ranges, images and IMUs. A note if a transform of the frame has the slash too",
+    "clouds, ranges, images and IMUs. A note if a transform of the frame has the slash too, "
+    "and for messages without a position, such as joint states",
     headline="{topic} {aged}names {frame}, {tf}",
     detail="{topic}: {frame}, {count:times}{outside}",
     consequence="every direct tf2 lookup fails: \"in tf2 frame_ids cannot start with a '/'\" "
@@ -250,13 +251,14 @@ def slash_twins(model: Model, limits: Limits) -> Iterator[Hit]:
             slashed = [t.slashed for t in model.tracks if known in t.edge]
             is_sensor = last_part(heard.type) in {*PLACED, "Image", "Imu"}
             severity = Severity.WARNING if is_old or not is_sensor else Severity.ERROR
+            is_note = any(slashed) or not heard.is_spatial
             outside = _outside(model, heard, known)
             yield Hit(
                 frames=(heard.frame, known),
                 topics=(heard.topic,),
                 since=int(heard.logs[0]) if len(heard.logs) else None,
                 count=len(heard.stamps),
-                severity=Severity.NOTE if any(slashed) else severity,
+                severity=Severity.NOTE if is_note else severity,
                 facts={
                     "frame": heard.frame,
                     "known": known,

@@ -32,7 +32,8 @@ check = checks_of(Area.VALUES)
     "counting the step to an initial pose. One such step of {once:g} m, {steady:g} s or more after "
     "the first sample, is enough, unless a gap or a message with an initial pose comes before it. "
     "An object that a camera detects is reported for "
-    "{corrections:g} steps or more of {detected:g} m and 2 m/s within 1 s. Not reported in a world "
+    "{corrections:g} steps or more of {detected:g} m and 2 m/s within 1 s; after a gap of three "
+    "periods, at twice the 95 % quantile of all speeds. Not reported in a world "
     "frame for a step less than 1 s after a gap of 0.2 s and 8 periods or more, if the "
     "speed from the last pose before the gap is below {speed:g} m/s. If the turn is a jump too, "
     "the step must be at most one period after the gap, and the turn since the gap below 90°",
@@ -317,9 +318,11 @@ def _poor_detections(model: Model, track: Track, limits: Limits) -> Hit | None:
     if is_world(track.parent) or len(track.by_stamp) < 2 or not is_detection(model, track):
         return None
     gaps = np.diff(track.sorted_stamps) / NANOSECONDS
-    steps = np.flatnonzero(
-        (track.strides > limits["detected"]) & (track.strides > 2.0 * gaps) & (gaps < 1.0)
-    )
+    # After a time without detections, a fast object has moved on.
+    fast = percentile(track.strides[gaps > 0.0] / gaps[gaps > 0.0], 95) if gaps.any() else 0.0
+    is_next = (gaps * NANOSECONDS <= 3 * track.period) | (track.strides > 2.0 * fast * gaps)
+    far = (track.strides > limits["detected"]) & (track.strides > 2.0 * gaps) & (gaps < 1.0)
+    steps = np.flatnonzero(far & is_next)
     if len(steps) < limits["corrections"]:
         return None
     away = np.linalg.norm(track.translations[track.by_stamp], axis=1)

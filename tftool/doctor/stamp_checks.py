@@ -285,9 +285,9 @@ _SPIKE = 0.01
     "times as many messages as different stamps, or more. Or a transform is sent three times "
     "or more at once, with one stamp and value: the copies of a stamp arrive within {spread:g} of "
     "the step of the stamps (median). A note for a moving transform that is sent "
-    "twice, unless the robot's description and statics are sent twice too, and for messages other "
-    "than laser scans, because their stamps may be those of a simulator's step or of a slower "
-    "source",
+    "twice, unless the robot's description and statics came more than once too, and for messages "
+    "other than laser scans, because their stamps may be those of a simulator's step or of a "
+    "slower source",
     headline="{where} {concerned:sends|send} each message several times",
     detail="{topic}: {count} messages have {different} different stamps{also}",
     consequence="programs that use the topic process each message several times",
@@ -345,7 +345,7 @@ def sent_twice(model: Model, limits: Limits) -> Iterator[Hit]:
             "topic": track.name,
             "count": len(stamps),
             "different": different,
-            "also": f"; {doubled[0]} and statics are sent twice too" if all_twice else "",
+            "also": f"; {doubled[0]} and statics came more than once too" if all_twice else "",
         }
         severity = Severity.NOTE if is_double and not all_twice else None
         yield hit_of(track, facts, fixes=(fix,), severity=severity)
