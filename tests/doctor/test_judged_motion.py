@@ -95,7 +95,7 @@ def test_the_robot_that_agrees_with_the_recorder_is_not_blamed(others):
     assert finding.edges == (("p1/odom", "p1/base_link"),)
     assert all(topic.startswith("/p1/") for topic in finding.topics)
     assert finding.message.endswith("are 20 minutes ahead of the other clocks")
-    assert finding.consequence == "no lookup across the two clocks can succeed"
+    assert finding.consequence == "no lookup across the two clocks can succeed with a cache of 10 s"
     assert "stale-stamp" not in ids(made, notes=True)
 
 

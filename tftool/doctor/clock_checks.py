@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
-from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, Duration, seconds
+from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, Duration, as_seconds, seconds
 from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Confidence, Fact, Fix, Hit, Severity
 from tftool.doctor.gap_checks import REPORTS
@@ -256,7 +256,7 @@ def shifted_clock(model: Model, limits: Limits) -> Iterator[Hit]:
             "spread": model.shift.spread,
             "told": " in the half of the messages that waited least"
             if model.shift.has_bursts
-            else "",
+            else " for 80 % of the messages",
             "streams": alike,
             "of": alike + len(others),
             "others": f", and {several(others)}" if others else "",
@@ -507,7 +507,8 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
                 "looks up its present time gets data of another time"
             )
         elif len(heards) < len(streams) and abs(ahead) > model.settings.cache_time:
-            so = "no lookup across the two clocks can succeed"
+            cache = f"{as_seconds(model.settings.cache_time):g} s"
+            so = f"no lookup across the two clocks can succeed with a cache of {cache}"
         topic, found = several(names), f"{'is' if len(names) == 1 else 'are'} {by} {off}" + told
         if model.shift is not None and abs(model.shift.by - ahead) < _JITTER:
             # These streams are right: the others are not on the recorder's clock.

@@ -27,7 +27,7 @@ check = checks_of(Area.PUBLISHERS)
     "kind changes once, if no sensor message is in the frame or below it, and in ROS 1, which "
     "keeps the first kind",
     headline="{named} {many:is|are} sent on /tf and on /tf_static",
-    detail="moving: {moving}; static: {static}{apart}{changes}",
+    detail="{moving}; {static}{apart}{changes}",
     consequence="{so}",
     causes=(
         "SLAM beside the robot description, with other parents",

@@ -85,7 +85,7 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
         if source := _stopped_with(model, track):
             cure = (
                 f"{source}, which has the same stamps, stops at the same time: look at its "
-                f"publisher and its sensor: `{{publishers}} {source}`"
+                f"publisher: `{{publishers}} {source}`"
             )
         is_played = model.was_played and all(map(is_player, track.nodes))
         if is_played:

@@ -229,8 +229,11 @@ def _subject(name: str, hits: Sequence[Hit]) -> str:
 
 
 def rounded_up(nanoseconds: int) -> int:
-    """Round nanoseconds up to a multiple of 10 ms, the interval at which tf2 repeats a lookup."""
-    return math.ceil(nanoseconds / 10_000_000) * 10_000_000
+    """Round a wait up to a multiple of 10 ms, the interval at which tf2 repeats a lookup.
+
+    The result is at least 1 ms longer than the wait, so that a lookup with this timeout succeeds.
+    """
+    return math.ceil((nanoseconds + 1_000_000) / 10_000_000) * 10_000_000
 
 
 def least_rate(link: str, period: int, later: int, wait: float) -> str:
