@@ -243,6 +243,9 @@ def test_a_static_that_changes_and_one_that_moves():
     changed.static("base_link", "laser", (0.3, 0.0, 0.2, *NO_TURN), at=4.0)
     finding = found(changed, "static-changed")
     assert finding.facts["moved"] == pytest.approx(0.2)
+    assert "again" not in finding.evidence[0]
+    changed.static("base_link", "laser", at=6.0)
+    assert "at the end the first again" in found(changed, "static-changed").evidence[0]
 
     moves = robot()
     for tick in range(6):

@@ -221,6 +221,7 @@ def _values_of_statics(model: Model, limits: Limits) -> Iterator[tuple[int, floa
         moved = float(track.apart(np.array(kept), first).max())
         turned = float(track.turned(np.array(kept), first).max())
         is_sudden = track.logs[changes[-1]] - track.logs[kept[0]] < NANOSECONDS
+        again = ", and at the end the first again" if _same(track, last, kept[0], limits) else ""
         yield (
             len(kept),
             moved,
@@ -233,7 +234,8 @@ def _values_of_statics(model: Model, limits: Limits) -> Iterator[tuple[int, floa
                     "turned": turned,
                     "shown": ", then ".join(
                         " ".join(f"{n:.4g}" for n in track.translations[one]) for one in kept[:3]
-                    ),
+                    )
+                    + again,
                     "so": "each listener keeps the value that reaches it last"
                     if is_sudden
                     else "when the new value arrives, all data placed with the old value "
