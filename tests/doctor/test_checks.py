@@ -1,6 +1,7 @@
 """Tests of the checks, each on a small robot that triggers it and on one that must not."""
 
 import math
+import re
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -131,6 +132,7 @@ def test_two_values_at_one_stamp_are_two_publishers_however_near():
     conflict = found(made, "publisher-conflict")
     assert conflict.facts["apart"] == pytest.approx(0.04)
     assert conflict.confidence is Confidence.LIKELY
+    assert conflict.message.endswith("two different values, which alternate")
     assert conflict.evidence[0].startswith("base_link in odom: A and B, 10 stamps carry two values")
     # Without names of publishers, the values are no proof.
     assert conflict.severity is Severity.WARNING
@@ -170,6 +172,8 @@ def test_one_node_with_two_values_on_tf_and_in_its_odometry_is_one_finding():
     conflict = found(made, "publisher-conflict")
     assert conflict.topics == ("/odom",)
     assert "2 stamps carry two values (and on /odom)" in conflict.evidence[0]
+    assert re.search(r"two different values at 2 of \d+ stamps", conflict.message)
+    assert conflict.consequence.startswith("the frame jumps at these stamps")
 
 
 @pytest.mark.parametrize("speed", [15.0, 40.0])

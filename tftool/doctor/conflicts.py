@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from tftool.base.stamps import CACHE_TIME, NANOSECONDS, seconds
-from tftool.doctor.findings import Confidence, Fix, Hit, Severity
+from tftool.doctor.findings import Confidence, Fact, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_stream import Mask, Places, Track, last_part
 from tftool.doctor.wording import moment, several, span
@@ -148,7 +148,15 @@ def values_at_one_stamp(track: Track, limits: Limits) -> Hit | None:
     owned = (mine[differ], theirs[differ])
     sure = Confidence.LIKELY if count >= limits["samples"] else Confidence.POSSIBLE
     hit = _conflict(track, ("A", "B"), owned, owned, sure)
-    return replace(hit, facts={**hit.facts, "told": f"{hit.count:,} stamps carry two values"})
+    facts: dict[str, Fact] = {**hit.facts, "told": f"{hit.count:,} stamps carry two values"}
+    if count < _SOME * len(counts):
+        facts["seen"] = f" at {count:,} of {len(counts):,} stamps"
+        facts["so"] = "the frame jumps at these stamps, and so do all frames below"
+    return replace(hit, facts=facts)
+
+
+_SOME = 0.1
+"""Fraction of an edge's stamps with two values below which the values do not alternate."""
 
 
 def with_senders(model: Model, track: Track, hit: Hit) -> Hit:
@@ -171,7 +179,7 @@ def with_senders(model: Model, track: Track, hit: Hit) -> Hit:
             told = f"two senders ({rates[0]:.3g} Hz and {rates[1]:.3g} Hz); {told}"
         fix = Fix(f"while the robot runs, list the senders: `{{publishers}} {track.topics[0]}`")
     fixes = tuple(fix if one == usual else one for one in hit.fixes)
-    return replace(hit, fixes=fixes, facts={**hit.facts, "seen": f", which alternate, {told}"})
+    return replace(hit, fixes=fixes, facts={**hit.facts, "seen": f"{hit.facts['seen']}, {told}"})
 
 
 def _timers(track: Track) -> tuple[float, float] | None:
