@@ -56,8 +56,7 @@ def outage(model: Model, limits: Limits) -> Iterator[Hit]:
     ]
     also = f"; also from {several(others, 3)}" if others else ""
     again = _sent_again(model, outages)
-    facts = _headline(worst)
-    begin, end = int(str(facts["begin"])), int(str(facts["end"]))
+    begin, end, streams, longer = _headline(worst)
     apart = [one.length for one in outages if one.end <= begin or one.begin >= end]
     total = span(end - begin + sum(apart))
     yield Hit(
@@ -67,7 +66,12 @@ def outage(model: Model, limits: Limits) -> Iterator[Hit]:
         until=outages[-1].end,
         count=len(outages),
         facts={
-            **facts,
+            "begin": begin,
+            "end": end,
+            "length": end - begin,
+            "streams": len(streams),
+            "names": [stream.name for stream in streams],
+            "longer": longer,
             "of": worst.of,
             "lost": _lost(worst) + again + also + _shorter(worst, outages, limits),
             "often": f", the longest of {len(apart) + 1} outages ({total} in all)" if apart else "",
@@ -211,11 +215,11 @@ def _hole(stream: Track | Heard, begin: Stamp, end: Stamp) -> Duration:
     return hole if hole > 3 * int(np.median(steps)) else 0
 
 
-def _headline(outage: _Outage) -> dict[str, Fact]:
-    """Return the facts of an outage's headline.
+def _headline(outage: _Outage) -> tuple[Stamp, Stamp, list[Track | Heard], str]:
+    """Return what an outage's headline says: begin, end, silent streams, and a further clause.
 
-    If half or more of the streams were silent more than twice as long as all, the facts are those
-    of these streams.
+    If half or more of the streams were silent more than twice as long as all, these streams are
+    returned, and the clause says how long all were silent; otherwise it is "".
     """
     rows = list(zip(outage.silences, outage.streams, strict=True))
     longer = [row for row in rows if row[0][1] - row[0][0] > 2 * outage.length]
@@ -223,14 +227,7 @@ def _headline(outage: _Outage) -> dict[str, Fact]:
     if 2 * len(longer) >= outage.of:
         rows, told = longer, f", and for {span(outage.length)} on {len(rows)}"
         begin, end = max(low for (low, _), _ in rows), min(high for (_, high), _ in rows)
-    return {
-        "begin": begin,
-        "end": end,
-        "length": end - begin,
-        "streams": len(rows),
-        "names": [stream.name for _, stream in rows],
-        "longer": told,
-    }
+    return begin, end, [stream for _, stream in rows], told
 
 
 def _lost(outage: _Outage) -> str:
