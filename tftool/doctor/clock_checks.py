@@ -498,17 +498,18 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
             so = f"each lookup at these stamps has to wait {by} longer, or fails"
         side = "ahead of" if ahead > 0 else "behind"
         off = f"{side if model.shift is None else 'off'} {other}"
+        is_far = abs(ahead) > model.settings.cache_time
+        cached = f" with a cache of {as_seconds(model.settings.cache_time):g} s" if is_far else ""
         if told:
-            so = "no lookup across the two clocks can succeed"
+            so = f"no lookup across the two clocks can succeed{cached}"
         elif _is_of_transforms(model, ahead):
             off = f"{side} the recorder's clock"
             so = (
                 "lookups among the robot's own data work; a node on the recorder's computer that "
                 "looks up its present time gets data of another time"
             )
-        elif len(heards) < len(streams) and abs(ahead) > model.settings.cache_time:
-            cache = f"{as_seconds(model.settings.cache_time):g} s"
-            so = f"no lookup across the two clocks can succeed with a cache of {cache}"
+        elif len(heards) < len(streams) and is_far:
+            so = f"no lookup across the two clocks can succeed{cached}"
         topic, found = several(names), f"{'is' if len(names) == 1 else 'are'} {by} {off}" + told
         if model.shift is not None and abs(model.shift.by - ahead) < _JITTER:
             # These streams are right: the others are not on the recorder's clock.
@@ -517,8 +518,9 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
             side = "behind" if model.shift.by > 0 else "ahead of"
             by = span(abs(model.shift.by))
             found = f"{verb} {by} {side} the recorder's clock, with which {agrees}"
-            if not told and abs(ahead) > model.settings.cache_time:
+            if not told and is_far:
                 so = "no lookup across the two clocks that needs a moving transform can succeed"
+                so += cached
         yield Hit(
             edges=tuple(one.edge for one in streams if isinstance(one, Track)),
             topics=tuple(dict.fromkeys(heard.topic for heard in heards)),

@@ -149,7 +149,7 @@ def values_at_one_stamp(track: Track, limits: Limits) -> Hit | None:
     sure = Confidence.LIKELY if count >= limits["samples"] else Confidence.POSSIBLE
     hit = _conflict(track, ("A", "B"), owned, owned, sure)
     facts: dict[str, Fact] = {**hit.facts, "told": f"{hit.count:,} stamps carry two values"}
-    if count < _SOME * len(counts):
+    if count < _SOME * len(counts) and _timers(track) is None:
         facts["seen"] = f" at {count:,} of {len(counts):,} stamps"
         facts["so"] = "the frame jumps at these stamps, and so do all frames below"
     return replace(hit, facts=facts)
