@@ -86,7 +86,7 @@ SHIFT = seconds(2)
 """Minimum constant difference between stamps and reception that counts as a shift of the clock."""
 
 _LEAST_SHARED = seconds(0.5)
-"""The same for stamps before their reception, if the differences of all streams agree."""
+"""Minimum shift of the clock, nanoseconds, if all streams are late by nearly the same time."""
 
 _SHARED = seconds(0.2)
 """Maximum difference between delays of streams, and within a stream, that agree."""

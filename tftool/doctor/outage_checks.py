@@ -216,7 +216,7 @@ def _hole(stream: Track | Heard, begin: Stamp, end: Stamp) -> Duration:
 
 
 def _headline(outage: _Outage) -> tuple[Stamp, Stamp, list[Track | Heard], str]:
-    """Return what an outage's headline says: begin, end, silent streams, and a further clause.
+    """Return the parts of an outage's headline: begin, end, silent streams, and a further clause.
 
     If half or more of the streams were silent more than twice as long as all, these streams are
     returned, and the clause says how long all were silent; otherwise it is "".

@@ -436,7 +436,7 @@ def explained(check: Check, width: int | None = None) -> str:
 
 
 def _rule(check: Check) -> list[str]:
-    """Return the sentences of a check's rule, each of which is one condition."""
+    """Return the sentences of a check's rule; each sentence is one condition."""
     return split(r"(?<=\.) (?=[A-Z0-9])", f"{filled(check.rule, check.limits)}.")
 
 
