@@ -27,6 +27,7 @@ from tftool.doctor import odometry_checks as odometry
 from tftool.doctor import outage_checks as outages
 from tftool.doctor import pose_checks as poses
 from tftool.doctor import publisher_checks as publishers
+from tftool.doctor import recording_checks as recordings
 from tftool.doctor import shape_checks as shape
 from tftool.doctor import stamp_checks as stamps
 from tftool.doctor import static_checks as statics
@@ -47,7 +48,8 @@ CHECKS: Mapping[str, Check] = {
     check.id: check
     for room in (
         *(publishers, statics, shape, heard_names, names, clocks, laps, stamps, delays),
-        *(stops, gaps, outages, coverage, values, jumps, poses, odometry, mounts, description),
+        *(stops, gaps, recordings, outages, coverage, values, jumps, poses, odometry, mounts),
+        description,
     )
     for check in room.check.checks
 }
